@@ -24,6 +24,7 @@
 #include "common/time_limit.h"
 #include "common/tool_main.h"
 #include "meshbound/error.h"
+#include "meshbound/pose.h"
 #include "meshbound/transform.h"
 #include "penetration/arguments.h"
 #include "penetration/parts_file.h"
@@ -37,14 +38,14 @@ using namespace meshbound::tools;
 /// One of the two meshes, from reading to a placed model.
 struct Input {
   TriangleMesh mesh;
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  Pose pose = Pose::Identity();
   std::optional<double> displacement;
   std::unique_ptr<ClosedModel> model;
 };
 
 /// Whether `penetration_depth` takes the map as a pose: its columns are orthonormal up to the rounding of the program
 /// that wrote them, and it is no reflection.
-bool is_rigid(const Eigen::Affine3d& map) {
+bool is_rigid(const AffineMap& map) {
   constexpr double max_drift = 1e-10;
   const Eigen::Matrix3d linear = map.linear();
   return (linear.transpose() * linear - Eigen::Matrix3d::Identity()).norm() <= max_drift && linear.determinant() > 0;
@@ -52,7 +53,7 @@ bool is_rigid(const Eigen::Affine3d& map) {
 
 /// Makes a rigid map the pose of the model. Any other map is applied here, each coordinate rounded once; if it
 /// reflects, triangles are reversed.
-void place(Input& input, const Eigen::Affine3d& map) {
+void place(Input& input, const AffineMap& map) {
   if (is_rigid(map)) {
     input.pose.matrix() = map.matrix();
     return;
@@ -65,7 +66,7 @@ void place(Input& input, const Eigen::Affine3d& map) {
 }
 
 /// Reads a mesh and places it.
-void load(const std::string& path, const std::optional<Eigen::Affine3d>& map, bool with_checksum, const StopToken& stop,
+void load(const std::string& path, const std::optional<AffineMap>& map, bool with_checksum, const StopToken& stop,
           Input& input, MeshReport& report) {
   input.mesh = read_input(path, with_checksum, report, stop);
   report.dropped.reset();  // nothing is written again
@@ -121,7 +122,7 @@ void tell(const PenetrationReport& report, const PenetrationArguments& arguments
 int run(const PenetrationArguments& arguments) {
   Stopwatch watch;
   const PenetrationLengths lengths = check_arguments(arguments);
-  std::optional<Eigen::Affine3d> map_a, map_b;
+  std::optional<AffineMap> map_a, map_b;
   if (!arguments.transform_a.empty()) map_a = parse_affine("--transform-a", arguments.transform_a);
   if (!arguments.transform_b.empty()) map_b = parse_affine("--transform-b", arguments.transform_b);
 

@@ -35,8 +35,12 @@ enum class TexturePrecision : std::uint8_t {
   FloatFromTop  ///< u and 1 - v are floats (glTF, whose v grows downwards)
 };
 
+/// Texture coordinates u, v as an argument or a result, aligned as a double whatever the flags (see `Pose`).
+/// `Eigen::Vector2d` converts to it and back by itself.
+using TextureCoordinate = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
+
 /// The nearest texture coordinate of this precision; one that has it stays as it is.
-[[nodiscard]] Eigen::Vector2d rounded_to(TexturePrecision precision, const Eigen::Vector2d& coordinate);
+[[nodiscard]] TextureCoordinate rounded_to(TexturePrecision precision, const TextureCoordinate& coordinate);
 
 /// How the value of an attribute at a point inside a triangle follows from those at the corners.
 enum class Interpolation : std::uint8_t {

@@ -10,6 +10,7 @@
 #include "meshbound/bounds.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_view.h"
+#include "meshbound/pose.h"
 #include "meshbound/stop_token.h"
 
 namespace meshbound {
@@ -95,10 +96,10 @@ struct QueryOptions {
 struct PlacedModel {
   /// `model_pose` takes model coordinates to world coordinates. What measures with it throws `InvalidInput` where it is
   /// not a rigid motion.
-  PlacedModel(const Bvh& model, const Eigen::Isometry3d& model_pose = Eigen::Isometry3d::Identity())  // NOLINT
+  PlacedModel(const Bvh& model, const Pose& model_pose = Pose::Identity())  // NOLINT
       : bvh(&model), pose(model_pose) {}
-  const Bvh* bvh;          ///< not owned
-  Eigen::Isometry3d pose;  ///< from model to world coordinates
+  const Bvh* bvh;  ///< not owned
+  Pose pose;       ///< from model to world coordinates
 };
 
 }  // namespace meshbound

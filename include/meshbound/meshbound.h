@@ -20,6 +20,7 @@
 #include "meshbound/motion.h"
 #include "meshbound/normal_deviation.h"
 #include "meshbound/penetration_depth.h"
+#include "meshbound/pose.h"
 #include "meshbound/proximity.h"
 #include "meshbound/report.h"
 #include "meshbound/scene.h"

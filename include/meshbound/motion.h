@@ -7,6 +7,7 @@
 
 #include "meshbound/bvh.h"
 #include "meshbound/distance.h"
+#include "meshbound/pose.h"
 
 namespace meshbound {
 
@@ -33,12 +34,12 @@ class MovingPair {
   ~MovingPair();
 
   /// Measures H(A, B) at these poses, model to world. Throws as the function of the same name.
-  [[nodiscard]] HausdorffDistance hausdorff_distance(const Eigen::Isometry3d& pose_a, const Eigen::Isometry3d& pose_b,
+  [[nodiscard]] HausdorffDistance hausdorff_distance(const Pose& pose_a, const Pose& pose_b,
                                                      const DistanceOptions& options = {});
 
   /// Decides H(A, B) <= tolerance (model units) at these poses. Throws as the function of the same name.
-  [[nodiscard]] ToleranceCheck check_tolerance(const Eigen::Isometry3d& pose_a, const Eigen::Isometry3d& pose_b,
-                                               double tolerance, const DistanceOptions& options = {});
+  [[nodiscard]] ToleranceCheck check_tolerance(const Pose& pose_a, const Pose& pose_b, double tolerance,
+                                               const DistanceOptions& options = {});
 
   [[nodiscard]] std::size_t memory_bytes() const;  ///< of what is kept, without the trees
 

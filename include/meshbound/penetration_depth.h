@@ -19,6 +19,7 @@
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_view.h"
+#include "meshbound/pose.h"
 
 namespace meshbound {
 
@@ -55,10 +56,10 @@ struct PlacedClosedModel {
   /// `model_pose` takes model coordinates to world coordinates. What measures with it throws `InvalidInput` where it is
   /// not a rigid motion, or is a reflection.
   PlacedClosedModel(const ClosedModel& closed,  // NOLINT(google-explicit-constructor)
-                    const Eigen::Isometry3d& model_pose = Eigen::Isometry3d::Identity())
+                    const Pose& model_pose = Pose::Identity())
       : model(&closed), pose(model_pose) {}
   const ClosedModel* model;  ///< not owned
-  Eigen::Isometry3d pose;    ///< from model to world coordinates
+  Pose pose;                 ///< from model to world coordinates
 };
 
 /// What is asked of a penetration depth, and what it may cost.

@@ -11,6 +11,7 @@
 #include "meshbound/bvh.h"
 #include "meshbound/distance.h"
 #include "meshbound/penetration_depth.h"
+#include "meshbound/pose.h"
 
 namespace meshbound {
 
@@ -71,15 +72,15 @@ class Scene {
 
   /// Adds a body and returns its number. `model` must outlive this; it may be refitted between questions. Throws
   /// `InvalidInput` for a pose that is no rigid motion.
-  std::uint32_t add(const Bvh& model, const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity());
+  std::uint32_t add(const Bvh& model, const Pose& pose = Pose::Identity());
 
   /// Adds a solid, for which `contacts` measures how deep it is in other solids; `model` must outlive this. Throws as
   /// above, and for a pose that reflects.
-  std::uint32_t add(const ClosedModel& model, const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity());
+  std::uint32_t add(const ClosedModel& model, const Pose& pose = Pose::Identity());
 
   /// Gives a body another pose, model to world. Throws as `add`, and for a number that no body has; the pose is then as
   /// it was. Expected O(log n) for its box.
-  void move(std::uint32_t body, const Eigen::Isometry3d& pose);
+  void move(std::uint32_t body, const Pose& pose);
 
   [[nodiscard]] std::uint32_t size() const;                          ///< bodies
   [[nodiscard]] const PlacedModel& model(std::uint32_t body) const;  ///< with its pose

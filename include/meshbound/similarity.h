@@ -11,6 +11,7 @@
 #include "meshbound/bvh.h"
 #include "meshbound/distance.h"
 #include "meshbound/mesh_view.h"
+#include "meshbound/pose.h"
 
 namespace meshbound {
 
@@ -26,7 +27,7 @@ class Shape {
   Shape& operator=(Shape&&) noexcept;  ///< a moved-from object may only be destroyed or assigned to
   ~Shape();
 
-  [[nodiscard]] const Eigen::Affine3d& normalisation() const;  ///< from the mesh to normalised coordinates, rounded
+  [[nodiscard]] const AffineMap& normalisation() const;  ///< from the mesh to normalised coordinates, rounded
   /// Columns: the principal axes of the surface in normalised coordinates, longest first, a right-handed frame. They
   /// are well defined only where the three extents differ: not for a sphere or a cube.
   [[nodiscard]] const Eigen::Matrix3d& axes() const;
@@ -59,7 +60,7 @@ struct SimilarShape {
   std::size_t index = 0;  ///< among the candidates
   Bounds distance;        ///< H of the normalised shapes, under `alignment`
   /// Turns the normalised candidate to where it was measured; the identity unless asked to align.
-  Eigen::Isometry3d alignment = Eigen::Isometry3d::Identity();
+  Pose alignment = Pose::Identity();
   bool converged = true;  ///< the interval is as narrow as wanted
 };
 

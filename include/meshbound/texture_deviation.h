@@ -23,9 +23,11 @@ namespace meshbound {
 
 /// A triangle with texture coordinates. Nothing is assumed of it: it may have no area in space or in the texture.
 struct TexturedTriangle {
-  std::array<Eigen::Vector3d, 3> corners;      ///< model units
-  std::array<Eigen::Vector2d, 3> coordinates;  ///< texture coordinates u, v at the corners, linear between them
-  std::uint32_t triangle = 0;                  ///< index in the mesh that it comes from
+  std::array<Eigen::Vector3d, 3> corners;  ///< model units
+  /// Texture coordinates u, v at the corners, linear between them. Flags can take the alignment of Eigen away, hence
+  /// this one: see `Pose`.
+  alignas(16) std::array<Eigen::Vector2d, 3> coordinates;
+  std::uint32_t triangle = 0;  ///< index in the mesh that it comes from
   /// Coordinates are equal only where these are: the number of the material, or 0 for all.
   std::uint32_t material = 0;
 
@@ -63,10 +65,11 @@ struct TextureDeviationOptions {
 
 /// A point, and the nearest of the points of the other mesh that have its texture coordinate.
 struct TextureWitness {
-  SurfacePoint from;                                     ///< on the mesh that is measured
-  SurfacePoint nearest;                                  ///< on the other one
-  Eigen::Vector2d coordinate = Eigen::Vector2d::Zero();  ///< of both
-  double distance = 0;                                   ///< the length between the two, rounded to nearest
+  SurfacePoint from;     ///< on the mesh that is measured
+  SurfacePoint nearest;  ///< on the other one
+  /// Of both; aligned as in `TexturedTriangle`.
+  alignas(16) Eigen::Vector2d coordinate = Eigen::Vector2d::Zero();
+  double distance = 0;  ///< the length between the two, rounded to nearest
 };
 
 /// The deviation T(A, B) of one direction.

@@ -5,6 +5,7 @@
 #include "meshbound/bounds.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_view.h"
+#include "meshbound/pose.h"
 
 namespace meshbound {
 
@@ -20,7 +21,7 @@ struct TransformedMesh {
 /// Maps every vertex by `map`: any finite affine map, rigid or not, singular ones included. Coordinates are evaluated
 /// in twice the working precision and rounded once. Throws `InvalidInput` as `validate` does, when the last row of the
 /// matrix is not 0 0 0 1, an entry is not finite, or an image leaves `largest_coordinate`. O(n); safe from any thread.
-[[nodiscard]] TransformedMesh transformed(const MeshView& mesh, const Eigen::Affine3d& map);
+[[nodiscard]] TransformedMesh transformed(const MeshView& mesh, const AffineMap& map);
 
 /// The interval for a quantity that differs by at most `displacement` from one that lies in `bounds`: rounded outward,
 /// cut off at 0. Throws `InvalidInput` for a displacement that is negative or not a number.

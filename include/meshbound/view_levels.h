@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "meshbound/lod_chain.h"
+#include "meshbound/pose.h"
 #include "meshbound/screen_space.h"
 #include "meshbound/triangle_mesh.h"
 
@@ -29,7 +30,7 @@ struct ViewCamera {
 struct ViewInstance {
   std::size_t model = 0;  ///< index among the models
   /// Model to world. Deviations count as if it stretched all directions as much as the one that it stretches most.
-  Eigen::Affine3d pose = Eigen::Affine3d::Identity();
+  AffineMap pose = AffineMap::Identity();
   std::optional<std::size_t> group;  ///< instances with the same number, at most 2^24, are one group
 };
 
@@ -38,7 +39,7 @@ struct ViewInstance {
 /// box reaches the camera's plane; infinite where all of it lies behind. Throws `InvalidInput` unless the direction
 /// has a length, the aspect ratio is positive, and position and pose are finite, and as `screen_space_tolerance`. O(1).
 [[nodiscard]] double view_tolerance(const ViewCamera& camera, double pixels, const Eigen::AlignedBox3d& box,
-                                    const Eigen::Affine3d& pose);
+                                    const AffineMap& pose);
 
 /// What is asked of `view_levels`.
 struct ViewOptions {

@@ -4,7 +4,7 @@
 
 namespace meshbound {
 
-Eigen::Vector2d rounded_to(TexturePrecision precision, const Eigen::Vector2d& coordinate) {
+TextureCoordinate rounded_to(TexturePrecision precision, const TextureCoordinate& coordinate) {
   const double u = coordinate.x(), v = coordinate.y();
   switch (precision) {
     case TexturePrecision::Double:

@@ -7,6 +7,7 @@
 #include "geometry/eigen_vec3.h"
 #include "geometry/magnitude.h"
 #include "meshbound/error.h"
+#include "meshbound/pose.h"
 #include "numeric/rounding.h"
 
 namespace meshbound {
@@ -17,7 +18,7 @@ namespace {
 constexpr double max_drift = 1e-9;
 
 /// Spectral norm of R^T R - I, bounded by the Frobenius norm plus the rounding of its 9 entries (3 products each).
-double drift_of(const Eigen::Isometry3d& pose) {
+double drift_of(const Pose& pose) {
   if (!pose.matrix().allFinite()) throw InvalidInput("a pose has an entry that is not finite");
   if (pose.linear() == Eigen::Matrix3d::Identity()) return 0;
   const double drift = (pose.linear().transpose() * pose.linear() - Eigen::Matrix3d::Identity()).norm();
@@ -27,7 +28,7 @@ double drift_of(const Eigen::Isometry3d& pose) {
   return drift + 32 * unit_roundoff;
 }
 
-bool same_pose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) { return a.matrix() == b.matrix(); }
+bool same_pose(const Pose& a, const Pose& b) { return a.matrix() == b.matrix(); }
 
 /// The mapping between two models under one and the same pose: only their frames differ.
 Mapping shift_and_scale(const Frame& from, const Frame& to, double drift) {
@@ -46,8 +47,7 @@ Mapping shift_and_scale(const Frame& from, const Frame& to, double drift) {
 
 }  // namespace
 
-Mapping mapping_between(const Frame& from, const Eigen::Isometry3d& from_pose, const Frame& to,
-                        const Eigen::Isometry3d& to_pose) {
+Mapping mapping_between(const Frame& from, const Pose& from_pose, const Frame& to, const Pose& to_pose) {
   check_floating_point_model();
   const double drift = drift_of(from_pose) + drift_of(to_pose);
   if (same_pose(from_pose, to_pose)) return shift_and_scale(from, to, drift);

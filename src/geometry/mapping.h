@@ -4,6 +4,7 @@
 
 #include "geometry/frame.h"
 #include "geometry/vec3.h"
+#include "meshbound/pose.h"
 
 namespace meshbound {
 
@@ -26,7 +27,6 @@ struct Mapping {
 
 /// From working coordinates of a model in `from` posed by `from_pose` to those of a model in `to` posed by `to_pose`.
 /// Throws `InvalidInput` when a pose is not a rigid motion.
-Mapping mapping_between(const Frame& from, const Eigen::Isometry3d& from_pose, const Frame& to,
-                        const Eigen::Isometry3d& to_pose);
+Mapping mapping_between(const Frame& from, const Pose& from_pose, const Frame& to, const Pose& to_pose);
 
 }  // namespace meshbound

@@ -11,6 +11,7 @@
 
 #include "mesh/mesh_arrays.h"
 #include "meshbound/error.h"
+#include "meshbound/pose.h"
 #include "numeric/rounding.h"
 
 namespace meshbound {
@@ -56,7 +57,7 @@ Rounded image_coordinate(const Eigen::RowVector4d& row, const Eigen::Vector3d& x
   return {result.value, exact ? 0 : std::nextafter(error, infinity)};
 }
 
-void require_affine(const Eigen::Matrix4d& matrix) {
+void require_affine(const AffineMap::MatrixType& matrix) {
   if (!matrix.allFinite()) throw InvalidInput("transform: an entry of the matrix is not finite");
   if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
     throw InvalidInput("transform: the last row of the matrix must be 0 0 0 1 (row-major order)");
@@ -71,7 +72,7 @@ double length_rounded_up(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-TransformedMesh transformed(const MeshView& mesh, const Eigen::Affine3d& map) {
+TransformedMesh transformed(const MeshView& mesh, const AffineMap& map) {
   require_affine(map.matrix());
   validate(mesh);
   TransformedMesh result{to_triangle_mesh(mesh), 0};

@@ -133,7 +133,7 @@ bool is_cavity(PlacedPair& pair, const ClosedModel::Data& model, std::uint32_t c
 
 /// Places the unmoved model on both sides of a pair.
 void place_twice(PlacedPair& pair, const ClosedModel::Data& model, const StopToken& stop) {
-  pair.place(model, Eigen::Isometry3d::Identity(), model, Eigen::Isometry3d::Identity());
+  pair.place(model, Pose::Identity(), model, Pose::Identity());
   pair.stop_by(stop);
 }
 

@@ -54,13 +54,13 @@ mpz_class in_units(double x, int unit) {
   return value;
 }
 
-int ExactMap::image_bit(const Eigen::Isometry3d& pose, int input_bit) {
+int ExactMap::image_bit(const Pose& pose, int input_bit) {
   const Eigen::Matrix3d linear = pose.linear();
   const Eigen::Vector3d translation = pose.translation();
   return std::min(lowest_bit_of(linear) + input_bit, lowest_bit_of(translation));
 }
 
-ExactMap::ExactMap(const Eigen::Isometry3d& pose, int input_bit, int output_unit)
+ExactMap::ExactMap(const Pose& pose, int input_bit, int output_unit)
     : input_bit_(input_bit), is_translation_(pose.linear() == Eigen::Matrix3d::Identity()) {
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column)

@@ -8,6 +8,7 @@
 #include <array>
 
 #include "geometry/vec3.h"
+#include "meshbound/pose.h"
 
 namespace meshbound {
 
@@ -39,9 +40,9 @@ class ExactMap {
  public:
   /// The largest power of two, as an exponent, of which all images of points are multiples, provided that the points'
   /// coordinates are multiples of 2^`input_bit`.
-  [[nodiscard]] static int image_bit(const Eigen::Isometry3d& pose, int input_bit);
+  [[nodiscard]] static int image_bit(const Pose& pose, int input_bit);
   /// `output_unit` must be at most `image_bit`.
-  ExactMap(const Eigen::Isometry3d& pose, int input_bit, int output_unit);
+  ExactMap(const Pose& pose, int input_bit, int output_unit);
   [[nodiscard]] ExactPoint operator()(const Vec3& p) const;
 
  private:

@@ -18,7 +18,7 @@ std::uint32_t apex_of(const Triangle& t, const ModelEdge& edge) {
 
 void find_planes(ClosedModel::Data& model, const StopToken& stop) {
   PlacedPair pair;
-  pair.place(model, Eigen::Isometry3d::Identity(), model, Eigen::Isometry3d::Identity());
+  pair.place(model, Pose::Identity(), model, Pose::Identity());
   pair.stop_by(stop);
   DisjointSets planes(model.triangles.size());
   for (const ModelEdge& edge : model.edges) {

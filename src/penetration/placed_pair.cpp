@@ -17,7 +17,7 @@ Vec3 magnitudes(const Vec3& v) { return {std::fabs(v.x), std::fabs(v.y), std::fa
 Vec3 smaller(const Vec3& p, const Vec3& q) { return {std::min(p.x, q.x), std::min(p.y, q.y), std::min(p.z, q.z)}; }
 Vec3 larger(const Vec3& p, const Vec3& q) { return {std::max(p.x, q.x), std::max(p.y, q.y), std::max(p.z, q.z)}; }
 
-void require_motion(const Eigen::Isometry3d& pose) {
+void require_motion(const Pose& pose) {
   if (!pose.matrix().allFinite()) throw InvalidInput("a pose has an entry that is not finite");
   if (!(pose.linear().determinant() > 0)) throw InvalidInput("a pose is a reflection; penetration needs rigid motions");
   if (!(pose.translation().cwiseAbs().maxCoeff() <= largest_coordinate))
@@ -53,8 +53,7 @@ int certain_sign(double volume, const Vec3& a, const Vec3& b, const Vec3& c, dou
 
 }  // namespace
 
-void PlacedPair::place(const ClosedModel::Data& a, const Eigen::Isometry3d& pose_a, const ClosedModel::Data& b,
-                       const Eigen::Isometry3d& pose_b) {
+void PlacedPair::place(const ClosedModel::Data& a, const Pose& pose_a, const ClosedModel::Data& b, const Pose& pose_b) {
   sides_[0].model = &a;
   sides_[0].pose = pose_a;
   sides_[1].model = &b;

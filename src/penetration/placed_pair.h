@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "geometry/mapping.h"
+#include "meshbound/pose.h"
 #include "meshbound/stop_token.h"
 #include "penetration/closed_model_data.h"
 #include "penetration/exact_point.h"
@@ -31,8 +32,7 @@ struct PairVertex {
 class PlacedPair {
  public:
   /// Throws `InvalidInput` for poses that are no rigid motions.
-  void place(const ClosedModel::Data& a, const Eigen::Isometry3d& pose_a, const ClosedModel::Data& b,
-             const Eigen::Isometry3d& pose_b);
+  void place(const ClosedModel::Data& a, const Pose& pose_a, const ClosedModel::Data& b, const Pose& pose_b);
 
   /// Makes what runs on the pair from here on throw `Stopped` soon after this token says so.
   void stop_by(const StopToken& stop) { stop_ = stop; }
@@ -104,7 +104,7 @@ class PlacedPair {
  private:
   struct Side {
     const ClosedModel::Data* model = nullptr;
-    Eigen::Isometry3d pose;
+    Pose pose;
     std::array<Vec3, 3> rows;  ///< rotation, scaled to the local unit
     Vec3 center;               ///< subtracted from model coordinates before the rotation
     Vec3 offset;               ///< local

@@ -2,6 +2,7 @@
 #include "bvh/bvh_data.h"
 #include "distance/symmetric.h"
 #include "meshbound/motion.h"
+#include "meshbound/pose.h"
 
 namespace meshbound {
 namespace {
@@ -42,13 +43,13 @@ MovingPair::MovingPair(MovingPair&&) noexcept = default;
 MovingPair& MovingPair::operator=(MovingPair&&) noexcept = default;
 MovingPair::~MovingPair() = default;
 
-HausdorffDistance MovingPair::hausdorff_distance(const Eigen::Isometry3d& pose_a, const Eigen::Isometry3d& pose_b,
+HausdorffDistance MovingPair::hausdorff_distance(const Pose& pose_a, const Pose& pose_b,
                                                  const DistanceOptions& options) {
   return meshbound::hausdorff_distance({*impl_->a, pose_a}, {*impl_->b, pose_b}, options, impl_->memory());
 }
 
-ToleranceCheck MovingPair::check_tolerance(const Eigen::Isometry3d& pose_a, const Eigen::Isometry3d& pose_b,
-                                           double tolerance, const DistanceOptions& options) {
+ToleranceCheck MovingPair::check_tolerance(const Pose& pose_a, const Pose& pose_b, double tolerance,
+                                           const DistanceOptions& options) {
   return meshbound::check_tolerance({*impl_->a, pose_a}, {*impl_->b, pose_b}, tolerance, options, impl_->memory());
 }
 

@@ -7,6 +7,7 @@
 
 #include "distance/search/one_sided.h"
 #include "meshbound/error.h"
+#include "meshbound/pose.h"
 #include "meshbound/stop_token.h"
 #include "numeric/checked_seconds.h"
 #include "scene/shape.h"
@@ -102,8 +103,8 @@ class ShapeSearch {
     return {first, second, first * second};
   }
 
-  [[nodiscard]] Eigen::Isometry3d alignment(const ShapeTrial& trial) const {
-    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  [[nodiscard]] Pose alignment(const ShapeTrial& trial) const {
+    Pose pose = Pose::Identity();
     if (!options_.align) return pose;
     const auto [x, y, z] = signs(trial.way);
     pose.linear() = query_.axes() * Eigen::Vector3d(x, y, z).asDiagonal() * candidates_[trial.index].axes().transpose();
@@ -141,8 +142,7 @@ class ShapeSearch {
 
   /// Raises a lower bound to the largest distance of points, moved by `pose`, to a shape; stops once it is too large to
   /// matter.
-  void raise(ShapeTrial& trial, std::span<const Eigen::Vector3d> points, const Eigen::Isometry3d& pose,
-             const Shape& to) {
+  void raise(ShapeTrial& trial, std::span<const Eigen::Vector3d> points, const Pose& pose, const Shape& to) {
     double& lower = trial.distance.lower;
     for (std::size_t i = 0; i < points.size() && !(lower > limit_); ++i) {
       const Eigen::Vector3d query = pose * points[i];

@@ -10,6 +10,7 @@
 #include "bvh/bvh_data.h"
 #include "meshbound/error.h"
 #include "meshbound/motion.h"
+#include "meshbound/pose.h"
 #include "meshbound/stop_token.h"
 #include "numeric/checked_seconds.h"
 #include "numeric/numbers_below.h"
@@ -30,7 +31,7 @@ struct Body {
   WorldBox box = {};
   std::uint64_t moves = 0;  ///< counts poses and refits
 
-  void place(const Eigen::Isometry3d& pose) {
+  void place(const Pose& pose) {
     const PlacedModel placed(*model.bvh, pose);
     box = world_box(placed);
     model.pose = pose;
@@ -110,7 +111,7 @@ double rounding_of(const std::vector<Body>& bodies) {
   return largest;
 }
 
-void check_pose(const ClosedModel* solid, const Eigen::Isometry3d& pose) {
+void check_pose(const ClosedModel* solid, const Pose& pose) {
   if (solid != nullptr && pose.linear().determinant() < 0) throw InvalidInput("the pose of a solid is a reflection");
 }
 
@@ -166,21 +167,21 @@ Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;
 
-std::uint32_t Scene::add(const Bvh& model, const Eigen::Isometry3d& pose) {
+std::uint32_t Scene::add(const Bvh& model, const Pose& pose) {
   Body body{model};
   body.place(pose);
   impl_->bodies.push_back(body);
   return size() - 1;
 }
 
-std::uint32_t Scene::add(const ClosedModel& model, const Eigen::Isometry3d& pose) {
+std::uint32_t Scene::add(const ClosedModel& model, const Pose& pose) {
   check_pose(&model, pose);
   const std::uint32_t number = add(model.bvh(), pose);
   impl_->bodies[number].solid = &model;
   return number;
 }
 
-void Scene::move(std::uint32_t body, const Eigen::Isometry3d& pose) {
+void Scene::move(std::uint32_t body, const Pose& pose) {
   Body& moved = impl_->at(body);
   check_pose(moved.solid, pose);
   moved.place(pose);

@@ -9,6 +9,7 @@
 
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
+#include "meshbound/pose.h"
 
 namespace meshbound {
 namespace {
@@ -39,9 +40,9 @@ Moments moments_of(const TriangleMesh& mesh) {
 }
 
 /// Moves the mesh so that `origin` becomes 0 and scales it. Returns that map.
-Eigen::Affine3d normalise(TriangleMesh& mesh, const Vector3d& origin, double scale) {
+AffineMap normalise(TriangleMesh& mesh, const Vector3d& origin, double scale) {
   for (Vector3d& p : mesh.vertices) p = scale * (p - origin);
-  Eigen::Affine3d map = Eigen::Affine3d::Identity();
+  AffineMap map = AffineMap::Identity();
   map.linear() *= scale;
   map.translation() = -scale * origin;
   return map;
@@ -49,7 +50,7 @@ Eigen::Affine3d normalise(TriangleMesh& mesh, const Vector3d& origin, double sca
 
 /// Maps the bounding box of the mesh to unit size, so that the integrals are over coordinates of about 1 wherever the
 /// mesh lies. Returns the map.
-Eigen::Affine3d into_unit_box(TriangleMesh& mesh) {
+AffineMap into_unit_box(TriangleMesh& mesh) {
   const Eigen::AlignedBox3d box = used_bounding_box(mesh);
   const double size = box.sizes().maxCoeff();
   if (!(size > 0) || !std::isfinite(1 / size)) throw InvalidInput("the mesh is a single point and has no shape");
@@ -122,7 +123,7 @@ Shape::Shape(Shape&&) noexcept = default;
 Shape& Shape::operator=(Shape&&) noexcept = default;
 Shape::~Shape() = default;
 
-const Eigen::Affine3d& Shape::normalisation() const { return impl_->normalisation; }
+const AffineMap& Shape::normalisation() const { return impl_->normalisation; }
 
 const Eigen::Matrix3d& Shape::axes() const { return impl_->axes; }
 

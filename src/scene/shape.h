@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "meshbound/pose.h"
 #include "meshbound/similarity.h"
 
 namespace meshbound {
@@ -19,7 +20,7 @@ inline constexpr std::size_t few_samples = 16, max_samples = 128;
 
 struct Shape::Impl {
   TriangleMesh mesh;  ///< normalised; empty once the tree is built
-  Eigen::Affine3d normalisation;
+  AffineMap normalisation;
   Eigen::Matrix3d axes;
   Extents along_world;                   ///< along x, y and z
   Extents along_axes;                    ///< along the principal axes

@@ -62,7 +62,7 @@ double certain(double difference, const WorldBox& a, const WorldBox& b) {
 
 WorldBox world_box(const PlacedModel& model) {
   const Bvh::Data& tree = model.bvh->data();
-  const Mapping map = mapping_between(tree.frame, model.pose, Frame{}, Eigen::Isometry3d::Identity());
+  const Mapping map = mapping_between(tree.frame, model.pose, Frame{}, Pose::Identity());
   WorldBox box;
   const std::array offset = {map.translation.x, map.translation.y, map.translation.z};
   for (std::size_t k = 0; k < 3; ++k) {

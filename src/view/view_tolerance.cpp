@@ -21,8 +21,7 @@ double cosine_to_corner(const ViewCamera& camera) {
 
 }  // namespace
 
-double view_tolerance(const ViewCamera& camera, double pixels, const Eigen::AlignedBox3d& box,
-                      const Eigen::Affine3d& pose) {
+double view_tolerance(const ViewCamera& camera, double pixels, const Eigen::AlignedBox3d& box, const AffineMap& pose) {
   const double length = camera.direction.norm();
   if (!(length > 0) || !std::isfinite(length)) throw InvalidInput("the direction of a camera must have a length");
   if (!(camera.aspect_ratio > 0) || !std::isfinite(camera.aspect_ratio))

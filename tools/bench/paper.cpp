@@ -15,6 +15,7 @@
 #include "meshbound/distance.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/motion.h"
+#include "meshbound/pose.h"
 #include "meshes.h"
 #include "table.h"
 
@@ -115,11 +116,11 @@ struct Step {
 };
 
 /// Measures the distance at a pose of B.
-using Measure = std::function<HausdorffDistance(const Eigen::Isometry3d& pose, const DistanceOptions& options)>;
+using Measure = std::function<HausdorffDistance(const Pose& pose, const DistanceOptions& options)>;
 
 /// Both directions together: each rate is the mean of the two.
 Step measure_step(const Measure& measure, double separation) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  Pose pose = Pose::Identity();
   pose.translation().x() = separation;
   DistanceOptions options;
   options.threads = 1;
@@ -148,7 +149,7 @@ std::vector<Step> approach(const Measure& measure, int steps) {
 
 std::vector<Step> approach_cold(const Bvh& a, const Bvh& b, int steps) {
   return approach(
-      [&](const Eigen::Isometry3d& pose, const DistanceOptions& options) {
+      [&](const Pose& pose, const DistanceOptions& options) {
         return hausdorff_distance(a, {b, pose}, options);
       },
       steps);
@@ -157,8 +158,8 @@ std::vector<Step> approach_cold(const Bvh& a, const Bvh& b, int steps) {
 std::vector<Step> approach_warm(const Bvh& a, const Bvh& b, int steps) {
   MovingPair pair(a, b);
   return approach(
-      [&](const Eigen::Isometry3d& pose, const DistanceOptions& options) {
-        return pair.hausdorff_distance(Eigen::Isometry3d::Identity(), pose, options);
+      [&](const Pose& pose, const DistanceOptions& options) {
+        return pair.hausdorff_distance(Pose::Identity(), pose, options);
       },
       steps);
 }

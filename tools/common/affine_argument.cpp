@@ -41,26 +41,25 @@ std::string content(const std::string& option, const std::string& path) {
   return text;
 }
 
-Eigen::Affine3d affine_of(const std::string& where, const std::optional<std::vector<double>>& entries,
-                          const char* advice) {
+AffineMap affine_of(const std::string& where, const std::optional<std::vector<double>>& entries, const char* advice) {
   if (!entries || entries->size() != 16)
     throw InvalidInput(where + ": expected 16 finite numbers in row-major order" +
                        (entries ? ", got " + std::to_string(entries->size()) : "") + advice);
   const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(entries->data());
   if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
     throw InvalidInput(where + ": the last four of the 16 numbers must be 0 0 0 1 (row-major order)");
-  return Eigen::Affine3d(matrix);
+  return AffineMap(matrix);
 }
 
 }  // namespace
 
-Eigen::Affine3d parse_affine(const std::string& option, const std::string& numbers_or_file) {
+AffineMap parse_affine(const std::string& option, const std::string& numbers_or_file) {
   std::optional<std::vector<double>> entries = numbers(numbers_or_file);
   if (!entries) entries = numbers(content(option, numbers_or_file));
   return affine_of(option, entries, "; give them in quotes or name a file that holds them");
 }
 
-Eigen::Affine3d parse_affine_numbers(const std::string& where, const std::string& text) {
+AffineMap parse_affine_numbers(const std::string& where, const std::string& text) {
   return affine_of(where, numbers(text), "");
 }
 

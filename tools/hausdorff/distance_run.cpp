@@ -36,6 +36,7 @@
 #include "meshbound/error.h"
 #include "meshbound/io.h"
 #include "meshbound/mesh_summary.h"
+#include "meshbound/pose.h"
 #include "meshbound/report.h"
 #include "meshbound/texture_certificate.h"
 #include "meshbound/texture_deviation.h"
@@ -46,8 +47,8 @@ namespace meshbound::tools {
 namespace {
 
 /// Reads a mesh and, if there is a map, maps it. Returns a bound of how far rounding has moved its vertices.
-double load(const std::string& path, const std::optional<Eigen::Affine3d>& map, bool with_checksum,
-            const StopToken& stop, TriangleMesh& mesh, MeshReport& report, MeshAttributes* attributes) {
+double load(const std::string& path, const std::optional<AffineMap>& map, bool with_checksum, const StopToken& stop,
+            TriangleMesh& mesh, MeshReport& report, MeshAttributes* attributes) {
   mesh = read_input(path, with_checksum, report, stop, attributes);
   report.dropped.reset();  // nothing is written again
   double displacement = 0;
@@ -301,7 +302,7 @@ void measure_texture(DistanceReport& report, const Arguments& arguments, const T
 }
 
 /// Reads B for workers on tiles. As `load`.
-double load_for_tiles(const Arguments& arguments, const std::optional<Eigen::Affine3d>& map, bool with_checksum,
+double load_for_tiles(const Arguments& arguments, const std::optional<AffineMap>& map, bool with_checksum,
                       const StopToken& stop, Meshes& meshes, MeshReport& report) {
   if (!map) {
     meshes.stored_b = read_stored_input(arguments.b, with_checksum, report, stop, *arguments.workers);
@@ -314,7 +315,7 @@ double load_for_tiles(const Arguments& arguments, const std::optional<Eigen::Aff
 }
 
 Meshes read_meshes(const Arguments& arguments, const Stopwatch& watch, DistanceReport& report) {
-  std::optional<Eigen::Affine3d> map;
+  std::optional<AffineMap> map;
   if (!arguments.transform_b.empty()) map = parse_affine("--transform-b", arguments.transform_b);
   const bool with_checksums = !arguments.common.json.empty() || !arguments.deviation.report.empty();
   const StopToken stop = stop_of_reading(arguments.common, watch);

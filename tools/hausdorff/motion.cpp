@@ -22,6 +22,7 @@
 #include "hausdorff/pose_file.h"
 #include "meshbound/error.h"
 #include "meshbound/motion.h"
+#include "meshbound/pose.h"
 #include "report/json_parts.h"
 
 namespace meshbound::tools {
@@ -45,8 +46,8 @@ void check_motion_paths(const Arguments& arguments) {
   if (!arguments.common.json.empty()) check_writable(arguments.common.json);
 }
 
-Answer answer_at(MovingPair& pair, const Eigen::Isometry3d& pose, const Question& question, DistanceOptions options) {
-  const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
+Answer answer_at(MovingPair& pair, const Pose& pose, const Question& question, DistanceOptions options) {
+  const Pose identity = Pose::Identity();
   Answer answer;
   const auto take = [&answer](const auto& result) {
     answer.bounds = result.bounds;
@@ -70,15 +71,15 @@ ExitCode worse(ExitCode x, ExitCode y) {
   return x == ExitDone ? y : x;
 }
 
-void follow(Motion& motion, const Bvh& a, const Bvh& b, const std::vector<Eigen::Isometry3d>& poses,
-            const Arguments& arguments, const Stopwatch& watch) {
+void follow(Motion& motion, const Bvh& a, const Bvh& b, const std::vector<Pose>& poses, const Arguments& arguments,
+            const Stopwatch& watch) {
   ProgressBar bar("measuring", arguments.common.quiet);
   MovingPair pair(a, b);
   DistanceOptions options;
   options.method = arguments.method;
   options.threads = arguments.common.threads;
   options.cancel = &interrupted();
-  for (const Eigen::Isometry3d& pose : poses) {
+  for (const Pose& pose : poses) {
     options.budget.seconds = seconds_left(arguments.common, watch);
     if (interrupted() || options.budget.seconds == 0) break;
     motion.steps.push_back(answer_at(pair, pose, motion.question, options));
@@ -154,7 +155,7 @@ ExitCode run_motion(const Arguments& arguments) {
   Stopwatch watch;
   const TypedLengths lengths = parse_lengths(arguments);
   check_motion_paths(arguments);
-  const std::vector<Eigen::Isometry3d> poses = read_poses(arguments.poses);
+  const std::vector<Pose> poses = read_poses(arguments.poses);
   const bool with_checksums = !arguments.common.json.empty();
   Motion motion;
   const StopToken stop = stop_of_reading(arguments.common, watch);

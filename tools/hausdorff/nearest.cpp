@@ -17,6 +17,7 @@
 #include "common/stopwatch.h"
 #include "common/time_limit.h"
 #include "meshbound/error.h"
+#include "meshbound/pose.h"
 #include "meshbound/similarity.h"
 #include "report/json_parts.h"
 
@@ -95,11 +96,11 @@ SimilarityOptions options_of(const Arguments& arguments, const Stopwatch& watch)
 }
 
 /// From the file of the candidate to that of the query: where the candidate was measured.
-Eigen::Affine3d map_to_query(const Shape& query, const Shape& candidate, const Eigen::Isometry3d& alignment) {
+AffineMap map_to_query(const Shape& query, const Shape& candidate, const Pose& alignment) {
   return query.normalisation().inverse(Eigen::Affine) * alignment * candidate.normalisation();
 }
 
-report::Json to_json(const Eigen::Affine3d& map) {
+report::Json to_json(const AffineMap& map) {
   report::Json rows = report::Json::array();
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) rows.push_back(report::number(map.matrix()(i, j)));

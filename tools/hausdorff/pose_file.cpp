@@ -14,22 +14,22 @@ namespace {
 /// What the engine accepts too: written with 10 digits or more, a rotation is one.
 constexpr double max_drift = 1e-9;
 
-Eigen::Isometry3d parse_pose(const std::string& where, const std::string& line) {
-  const Eigen::Affine3d map = parse_affine_numbers(where, line);
+Pose parse_pose(const std::string& where, const std::string& line) {
+  const AffineMap map = parse_affine_numbers(where, line);
   const Eigen::Matrix3d gram = map.linear().transpose() * map.linear();
   if (!((gram - Eigen::Matrix3d::Identity()).norm() <= max_drift))
     throw InvalidInput(where + ": not a rigid motion: the columns of its 3 x 3 part are not orthonormal to 9 digits");
-  Eigen::Isometry3d pose;
+  Pose pose;
   pose.matrix() = map.matrix();
   return pose;
 }
 
 }  // namespace
 
-std::vector<Eigen::Isometry3d> read_poses(const std::string& path) {
+std::vector<Pose> read_poses(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file || std::filesystem::is_directory(path)) throw IoError("--poses: cannot read " + path);
-  std::vector<Eigen::Isometry3d> poses;
+  std::vector<Pose> poses;
   std::size_t number = 0;
   for (std::string line; std::getline(file, line);) {
     ++number;

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "meshbound/error.h"
+#include "meshbound/pose.h"
 
 namespace meshbound::tools {
 namespace {
@@ -78,9 +79,9 @@ class Place {
   std::string where_;
 };
 
-Eigen::Affine3d pose_of(const Place& place) {
+AffineMap pose_of(const Place& place) {
   const std::vector<double> entries = place.numbers(16);
-  Eigen::Affine3d pose;
+  AffineMap pose;
   pose.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(entries.data());
   if (pose.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1))
     place.refuse("the last four of the 16 numbers must be 0 0 0 1 (row-major order)");

@@ -15,6 +15,7 @@
 
 #include "bench_main.h"
 #include "measure.h"
+#include "meshbound/pose.h"
 #include "meshbound/scene.h"
 #include "physics/bodies.h"
 #include "physics/picture.h"
@@ -27,10 +28,10 @@ using namespace meshbound::bench;
 
 constexpr double error_bound = 1e-4, seconds_per_step = 1.0 / 60;
 
-Eigen::Isometry3d pose_of(const btTransform& transform) {
+Pose pose_of(const btTransform& transform) {
   const btQuaternion q = transform.getRotation();
   const btVector3& p = transform.getOrigin();
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  Pose pose = Pose::Identity();
   pose.translation() = Eigen::Vector3d(p.x(), p.y(), p.z());
   pose.linear() = Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()).normalized().toRotationMatrix();
   return pose;

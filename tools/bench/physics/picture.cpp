@@ -77,7 +77,7 @@ void Picture::set(int x, int y, const Colour& colour) {
   pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)] = colour;
 }
 
-void Picture::add(const MeshView& mesh, const Eigen::Isometry3d& pose, const Colour& colour) {
+void Picture::add(const MeshView& mesh, const Pose& pose, const Colour& colour) {
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const Triangle corners = mesh.triangle(t);
     const Eigen::Vector3d p = pose * mesh.vertex(corners[0]), q = pose * mesh.vertex(corners[1]),

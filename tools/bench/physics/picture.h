@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "meshbound/mesh_view.h"
+#include "meshbound/pose.h"
 
 namespace meshbound::bench {
 
@@ -18,7 +19,7 @@ class Picture {
   /// From `eye` towards `target`, z up; the field of view is 40 degrees.
   Picture(int width, int height, const Eigen::Vector3d& eye, const Eigen::Vector3d& target);
 
-  void add(const MeshView& mesh, const Eigen::Isometry3d& pose, const Colour& colour);
+  void add(const MeshView& mesh, const Pose& pose, const Colour& colour);
   /// Drawn over everything that is behind it or in front of it.
   void add_line(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Colour& colour);
   /// As PNG, not compressed. Throws `std::runtime_error` when it cannot be written.
