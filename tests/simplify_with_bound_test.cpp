@@ -345,6 +345,48 @@ TEST_P(SimplifyWithBound, RoundsToSinglePrecisionWithinTheTolerance) {
   for (const Eigen::Vector3d& p : result.last().mesh.vertices) EXPECT_EQ(p, p.cast<float>().cast<double>());
 }
 
+/// Terrain in UTM coordinates: floats there are half a metre apart in y, a thirty-second in x, far less in z. A vertex
+/// is moved by 0.251 at most, so that a tolerance of 0.3 is enough.
+TEST_P(SimplifyWithBound, LeavesRoomForFloatsByTheirStepsOnEachAxis) {
+  TriangleMesh terrain = datasets::terrain(100, 40, 5);
+  for (Eigen::Vector3d& p : terrain.vertices)
+    p = Eigen::Vector3d(p.x() + 500000.1, p.y() + 5400000.3, 0.1 * p.z() + 459.9);
+  for (const double tolerance : {0.3, 0.6, 1.2, 3.0}) {
+    SCOPED_TRACE(tolerance);
+    SimplifyOptions options = within(tolerance);
+    options.precision = Precision::Single;
+    options.line_tolerance = 0.8 * tolerance + 0.06;
+    const SimplifyResult result = simplify_with_bound(terrain, options);
+    expect_within(terrain, result.last());
+    EXPECT_LT(result.last().faces(), terrain.triangles.size());
+    EXPECT_LT(result.last().lines.size(), result.lines.size());
+    for (const Eigen::Vector3d& p : result.last().mesh.vertices) EXPECT_EQ(p, p.cast<float>().cast<double>());
+    options.precision = Precision::Double;
+    options.tolerance = tolerance - 0.26;
+    options.line_tolerance = *options.line_tolerance - 0.26;
+    const std::size_t with_doubles = simplify_with_bound(terrain, options).last().faces();
+    EXPECT_LE(static_cast<double>(result.last().faces()), 1.1 * static_cast<double>(with_doubles) + 10);
+  }
+}
+
+/// Vertices that are floats already leave the whole tolerance where the result has no others.
+TEST_P(SimplifyWithBound, NeedsNoRoomForFloatsThatItStartsFrom) {
+  const TriangleMesh square = reference::scaled(reference::unit_square(8), 64);
+  SimplifyOptions options = within(1e-3);
+  options.precision = Precision::Single;
+  options.placements = CollapsePlacements::Subset;
+  const TriangleMesh floats = reference::moved(square, {500000, 5400000, 460});
+  const SimplifyResult result = simplify_with_bound(floats, options);
+  expect_within(floats, result.last());
+  EXPECT_EQ(result.last().faces(), 2u);
+  const TriangleMesh doubles = reference::moved(square, {500000, 5400000.1, 460});  // a float is 0.1 away
+  EXPECT_EQ(simplify_with_bound(doubles, options).last().ended_by, EndedBy::Rounding);
+  options.tolerance = 0.101;
+  const SimplifyResult rounded = simplify_with_bound(doubles, options);
+  expect_within(doubles, rounded.last());
+  EXPECT_EQ(rounded.last().faces(), 2u);
+}
+
 TEST_P(SimplifyWithBound, EndsWhenItIsToldTo) {
   const TriangleMesh sphere = datasets::icosphere(1, 4);
   SimplifyOptions options = within(0.01);

@@ -184,7 +184,7 @@ struct SimplifyResult {
   std::size_t pruned_faces = 0;           ///< faces of these components when they were dropped
   std::size_t locked_vertices = 0;        ///< that no collapse may move: by the options that lock some
   bool split = false;                     ///< the input was not an oriented 2-manifold and was cut into one
-  bool tolerance_below_rounding = false;  ///< too small for doubles at these coordinates: nothing was collapsed
+  bool tolerance_below_rounding = false;  ///< too small for the numbers of the result at these coordinates
   CollapseCounts counts;                  ///< of all levels together
   /// Wall-clock time of the phases.
   struct Seconds {

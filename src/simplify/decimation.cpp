@@ -84,9 +84,8 @@ Decimation::Decimation(const TriangleMesh& original, const ProvenMesh* start, co
       start_points_(start != nullptr ? points_in_frame(start->mesh.vertices, frame_) : std::vector<Vec3>()),
       at_start_point_(start_points(), first_of_start_),
       tree_(view_of(vertices_, order_.triangles), BvhOptions{options.threads, stop}) {
-  for (std::uint32_t v = 0; v < vertices_.size(); ++v)
-    largest_ = std::max(largest_, in_original(v).cwiseAbs().maxCoeff());
-  if (options.precision == Precision::Single && largest_ > std::numeric_limits<float>::max() / 2)
+  for (std::uint32_t v = 0; v < vertices_.size(); ++v) largest_ = largest_.cwiseMax(in_original(v).cwiseAbs());
+  if (options.precision == Precision::Single && largest_.maxCoeff() > std::numeric_limits<float>::max() / 2)
     throw InvalidInput("a coordinate is beyond the range of single precision: rescale the mesh, or keep doubles");
   stop.check();
   make_state(stop);
@@ -357,7 +356,8 @@ void Decimation::set_lines() {
   DecimationState& state = *state_;
   state.lines = FeatureLines(state.mesh, marked_edges());
   if (options_.line_tolerance)
-    state.line_tolerance = std::max(0.0, frame_.length_to_frame(*options_.line_tolerance) - room());
+    state.line_tolerance =
+        std::max(0.0, frame_.length_to_frame(*options_.line_tolerance) - room(*options_.line_tolerance));
   for (Corner c = 0; c < 3 * state.mesh.face_count(); ++c) {
     if (state.mesh.edge(c) == c && state.lines.is_line(state.mesh, c))
       lines_.push_back({source_of(state.mesh.start(c)), source_of(state.mesh.end(c))});
@@ -373,31 +373,60 @@ std::uint32_t Decimation::source_of(std::uint32_t vertex) const {
 
 std::vector<double> Decimation::limits_in_frame() const {
   std::vector<double> limits;
+  const bool is_chain = std::isnan(options_.tolerance);  // the tolerances that it is asked for are not known yet
+  const double lost = room(is_chain ? largest_.maxCoeff() : options_.tolerance);
   for (const std::uint32_t t : order_.triangle) {
     const double tolerance = options_.face_tolerances[t];
-    limits.push_back(tolerance > 0 ? std::max(0.0, frame_.length_to_frame(tolerance) - room()) : tolerance);
+    limits.push_back(tolerance > 0 ? std::max(0.0, frame_.length_to_frame(tolerance) - lost) : tolerance);
   }
   return limits;
 }
 
-/// How far rounding to a float moves a point of the result, which may leave the box by the tolerance: half an ulp of
-/// each coordinate, doubled for the length of a vector.
-double Decimation::rounding_of_output() const {
-  if (options_.precision == Precision::Double) return 0;
-  constexpr double smallest_float = 0x1p-149;
-  const double tolerance = std::isnan(options_.tolerance) ? largest_ : options_.tolerance;
-  return std::max(smallest_float, (largest_ + tolerance) * 0x1p-24);
+namespace {
+
+/// Half the distance between the floats around a number of this magnitude or a smaller one: rounding such a number to
+/// the nearest float moves it by no more. A float has 24 bits and none below 2^-149.
+double half_float_step(double magnitude) {
+  int exponent = 0;  // magnitude < 2^exponent
+  std::frexp(magnitude, &exponent);
+  return std::ldexp(1.0, std::max(exponent - 25, -150));
 }
 
-/// For the ways into and out of the frame, of the original and of the result, and for the output format.
-double Decimation::room() const { return 4 * frame_.rounding() + frame_.length_to_frame(2 * rounding_of_output()); }
+}  // namespace
+
+/// How far rounding to floats may move a vertex of the result that lies within `reach` of the original, model units.
+/// Each of its coordinates is then at most the largest one of the original on that axis plus `reach`, so that rounding
+/// changes it by half a float step at that magnitude; the steps of the axes may differ much, as those of terrain in UTM
+/// do. Where vertices stand at those of the start only, what these and the original move by is known exactly.
+double Decimation::rounding_of_output(double reach) const {
+  if (options_.precision == Precision::Double) return 0;
+  constexpr double rounded_up = 1 + 0x1p-50;  // for the length itself
+  double moved = 0;
+  if (options_.placements == CollapsePlacements::Subset) {
+    const auto include = [&](const Eigen::Vector3d& p) { moved = std::max(moved, (as_written(p) - p).norm()); };
+    for (std::uint32_t v = 0; v < vertices_.size(); ++v) include(in_original(v));
+    if (start_ != nullptr) std::for_each(start_->mesh.vertices.begin(), start_->mesh.vertices.end(), include);
+  } else {
+    const auto half_step = [&](double largest) { return half_float_step(largest + reach); };
+    moved = largest_.unaryExpr(half_step).norm();
+  }
+  return rounded_up * moved;
+}
+
+/// What rounding takes of a tolerance for vertices within `reach` of the original, in units of the frame: the ways into
+/// and out of the frame, of the original and of the result, and the output format.
+double Decimation::room(double reach) const {
+  return 4 * frame_.rounding() + frame_.length_to_frame(rounding_of_output(reach));
+}
 
 EndedBy Decimation::run(double tolerance, std::size_t target_faces, const StopToken& stop) {
-  const double framed = frame_.length_to_frame(tolerance);
-  below_rounding_ = !(framed > 2 * room());
+  const double framed = frame_.length_to_frame(tolerance), lost = room(tolerance);
+  // Proofs need some room of their own, about as much as the frame does.
+  const double of_proofs = 4 * frame_.rounding();
+  below_rounding_ = !(framed > lost + of_proofs);
   if (below_rounding_) return EndedBy::Rounding;
   DecimationGoal goal;
-  goal.tolerance = framed - room();
+  goal.tolerance = framed - lost;
   goal.target_faces = target_faces - std::min(target_faces, state_->kept.size());  // those kept count as well
   goal.on_exceed = options_.on_exceed;
   goal.effort = options_.effort;

@@ -87,10 +87,10 @@ class Decimation {
   [[nodiscard]] int threads() const;
   [[nodiscard]] std::uint32_t source_of(std::uint32_t vertex) const;
   [[nodiscard]] std::vector<double> limits_in_frame() const;
-  [[nodiscard]] double room() const;
+  [[nodiscard]] double room(double reach) const;
   [[nodiscard]] Eigen::Vector3d in_model(std::uint32_t vertex) const;
   [[nodiscard]] Eigen::Vector3d as_written(const Eigen::Vector3d& point) const;
-  [[nodiscard]] double rounding_of_output() const;
+  [[nodiscard]] double rounding_of_output(double reach) const;
 
   const ProvenMesh* start_;       ///< null: the original itself
   std::size_t start_vertices_;    ///< that the caller knows
@@ -98,9 +98,9 @@ class Decimation {
   const TriangleMesh& original_;  ///< as the caller has it
   const SimplifyOptions& options_;
   WorkingFrame frame_;
-  double largest_ = 0;                         ///< coordinate of the model
-  std::vector<Vec3> vertices_;                 ///< of the original, in the frame
-  std::vector<Vec3> start_points_;             ///< vertices of `start_`, in the frame
+  Eigen::Vector3d largest_ = Eigen::Vector3d::Zero();  ///< magnitude of a coordinate of the original on each axis
+  std::vector<Vec3> vertices_;                         ///< of the original, in the frame
+  std::vector<Vec3> start_points_;                     ///< vertices of `start_`, in the frame
   std::vector<std::uint32_t> first_of_start_;  ///< by vertex of the start: the first one there, until the soup is made
   PositionTable at_start_point_;               ///< the vertices of the start by position
   Bvh tree_;                                   ///< in the frame
