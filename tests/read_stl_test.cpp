@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -55,13 +56,37 @@ TEST(ReadStl, JoinsAllSolidsOfAText) {
 }
 
 TEST(ReadStl, CountsSeveralSolidsAndAttributeBytes) {
-  EXPECT_EQ(read("solid a\n" + facet + across + "endsolid a\n").dropped, DroppedAttributes{});
+  EXPECT_EQ(read("solid\n" + facet + across + "endsolid\n").dropped, DroppedAttributes{});
+  EXPECT_EQ(read("solid a\n" + facet + across + "endsolid a\n").dropped, (DroppedAttributes{.groups = 1}));
   EXPECT_EQ(read("solid a\n" + facet + "endsolid a\nsolid b\n" + across + "endsolid").dropped,
             (DroppedAttributes{.groups = 2}));
   std::string bytes = binary("", 2, two_triangles);
   EXPECT_EQ(read(bytes).dropped, DroppedAttributes{});
   bytes.back() = '\x80';
   EXPECT_EQ(read(bytes).dropped, (DroppedAttributes{.facet_attributes = 1}));
+}
+
+/// Solids are groups, and a text file is written with the solids that it was read with; "meshbound" names none.
+TEST(ReadStl, KeepsTheNamesOfSolids) {
+  const TemporaryFolder folder;
+  const auto round_trip = [&](const std::string& content) {
+    write_file(folder / "in.stl", content);
+    const MeshFile file = read_mesh(folder / "in.stl", {.attributes = true});
+    EXPECT_EQ(file.dropped, DroppedAttributes{});
+    write_mesh(folder / "out.stl", file.mesh, {.ascii = true}, file.attributes);
+    const std::string written = content_of(folder / "out.stl");
+    std::string names;
+    std::istringstream lines(written);
+    for (std::string line; std::getline(lines, line);)
+      if (line.find("solid") != std::string::npos) names += line + '\n';
+    return names;
+  };
+  EXPECT_EQ(round_trip("solid  part 7 \r\n" + facet + across + "endsolid\n"), "solid part 7\nendsolid part 7\n");
+  EXPECT_EQ(round_trip("solid\n" + facet + across + "endsolid\n"), "solid meshbound\nendsolid meshbound\n");
+  EXPECT_EQ(round_trip("solid a\n" + facet + "endsolid a\nsolid meshbound\n" + across + "endsolid meshbound\n"),
+            "solid a\nendsolid a\nsolid meshbound\nendsolid meshbound\n");
+  EXPECT_EQ(round_trip("solid C:\\parts\\\n" + facet + "endsolid C:\\parts\\\n"),
+            "solid C:\\parts \nendsolid C:\\parts \n");
 }
 
 TEST(ReadStl, TakesAnyCaseAndSpacing) {

@@ -94,7 +94,8 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, con
 /// increased by what the others held, in the counts of `MeshFile::dropped`. O(n).
 [[nodiscard]] MeshAttributes carried_by(FileFormat format, MeshAttributes attributes, DroppedAttributes& lost);
 
-/// Whether files of this format are read and written with any `MeshAttributes`: all but STL.
+/// Whether files of this format are read and written with any `MeshAttributes`: all but STL, of which only text is,
+/// with its solids as `groups`.
 [[nodiscard]] bool carries_attributes(FileFormat format);
 
 }  // namespace meshbound

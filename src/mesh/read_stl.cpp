@@ -6,12 +6,16 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "mesh/mesh_assembler.h"
 #include "mesh/readers.h"
 #include "mesh/text_cursor.h"
 #include "mesh/weld.h"
+#include "mesh/written_name.h"
 #include "meshbound/triangle_mesh.h"
 
 namespace meshbound {
@@ -47,7 +51,11 @@ class WeldedCorners {
 class StlTextReader {
  public:
   explicit StlTextReader(const MeshSource& source)
-      : cursor_(source), assembler_(source, Position::Line), corners_(assembler_) {}
+      : cursor_(source),
+        assembler_(source, Position::Line),
+        corners_(assembler_),
+        bytes_(source.bytes),
+        takes_names_(source.with_attributes && source.sink == nullptr) {}
 
   MeshFile read() {
     bool in_solid = false;
@@ -55,8 +63,8 @@ class StlTextReader {
       const std::string_view word = cursor_.peek_word();
       if (equal_ignoring_case(word, in_solid ? "endsolid" : "solid")) {
         in_solid = !in_solid;
-        if (in_solid) ++solids_;
-        cursor_.skip_line();  // the rest is a name: any words
+        const std::string name = name_of_solid();
+        if (in_solid) begin_solid(name);
       } else if (in_solid && equal_ignoring_case(word, "facet")) {
         read_facet();
       } else {
@@ -64,8 +72,11 @@ class StlTextReader {
       }
     }
     if (in_solid) cursor_.fail("the file ends before 'endsolid'");
-    if (solids_ > 1) assembler_.dropped().groups = solids_;
-    return assembler_.finish();
+    const bool has_groups = solids_ > 1 || !first_name_.empty();
+    if (has_groups && !takes_names_) assembler_.dropped().groups = solids_;
+    MeshFile file = assembler_.finish();
+    if (has_groups && takes_names_) file.attributes.groups = std::move(groups_);
+    return file;
   }
 
  private:
@@ -86,6 +97,27 @@ class StlTextReader {
     }
     expect("endfacet");
     assembler_.add_polygon(polygon_);
+    if (takes_names_) groups_.index.resize(assembler_.triangle_count(), number_);
+  }
+
+  /// Reads 'solid' or 'endsolid' and the rest of its line: any words, which no backslash joins with the next line.
+  std::string name_of_solid() {
+    cursor_.word();
+    const std::size_t from = cursor_.offset();
+    cursor_.skip_line();
+    std::string_view name = bytes_.substr(from, cursor_.offset() - from);
+    constexpr std::string_view blanks = " \t\v\f\r\n";
+    name.remove_prefix(std::min(name.find_first_not_of(blanks), name.size()));
+    name = name.substr(0, name.find_last_not_of(blanks) + 1);
+    return name == name_of_unnamed_solid ? std::string() : std::string(name);
+  }
+
+  void begin_solid(const std::string& name) {
+    if (++solids_ == 1) first_name_ = name;
+    if (!takes_names_) return;
+    const auto [at, is_new] = number_of_.try_emplace(name, static_cast<std::uint32_t>(groups_.names.size()));
+    if (is_new) groups_.names.push_back(name);
+    number_ = at->second;
   }
 
   double read_coordinate() {
@@ -109,8 +141,14 @@ class StlTextReader {
   MeshAssembler assembler_;
   WeldedCorners corners_;
   std::vector<std::uint32_t> polygon_;
+  std::string_view bytes_;
+  bool takes_names_;
   std::size_t solids_ = 0;
-  std::size_t word_ = 0;  // where the last word starts
+  std::string first_name_;
+  TriangleLabels groups_;  // the solids
+  std::unordered_map<std::string, std::uint32_t> number_of_;
+  std::uint32_t number_ = 0;  // of the solid at hand
+  std::size_t word_ = 0;      // where the last word starts
 };
 
 template <class T>

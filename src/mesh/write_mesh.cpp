@@ -84,7 +84,7 @@ void write_mesh(AtomicFile& file, const std::filesystem::path& path, const Trian
     case FileFormat::Ply:
       return write_ply(file, mesh, options, attributes);
     case FileFormat::Stl:
-      return write_stl(file, mesh, options);
+      return write_stl(file, mesh, options, attributes);
     case FileFormat::Gltf:
     case FileFormat::Glb:
       return write_gltf(file, format, mesh, attributes);

@@ -3,7 +3,9 @@
 #include <array>
 #include <string>
 
+#include "mesh/no_value.h"
 #include "mesh/writers.h"
+#include "mesh/written_name.h"
 
 namespace meshbound {
 namespace {
@@ -18,10 +20,20 @@ FacetCorners rounded_corners(const TriangleMesh& mesh, const Triangle& t) {
 /// Unit normal, or zero for a triangle without one. The corners are floats, so nothing can overflow in double.
 Eigen::Vector3d normal_of(const FacetCorners& c) { return (c[1] - c[0]).cross(c[2] - c[0]).stableNormalized(); }
 
-void write_text(AtomicFile& file, const TriangleMesh& mesh) {
-  file.write("solid meshbound\n");
-  for (const Triangle& t : mesh.triangles) {
-    const FacetCorners corners = rounded_corners(mesh, t);
+std::string name_of_solid(const TriangleLabels& groups, std::size_t t) {
+  const bool has_name = !groups.empty() && groups.index[t] != no_value && !groups.names[groups.index[t]].empty();
+  return has_name ? name_on_a_line(groups.names[groups.index[t]]) : name_of_unnamed_solid;
+}
+
+void write_text(AtomicFile& file, const TriangleMesh& mesh, const TriangleLabels& groups) {
+  std::string solid;  // the open one
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (t == 0 || (!groups.empty() && groups.index[t] != groups.index[t - 1])) {
+      if (t > 0) file.write("endsolid " + solid + "\n");
+      solid = name_of_solid(groups, t);
+      file.write("solid " + solid + "\n");
+    }
+    const FacetCorners corners = rounded_corners(mesh, mesh.triangles[t]);
     file.write("facet normal ");
     put(file, rounded_to_float(normal_of(corners)), '\n');
     file.write("outer loop\n");
@@ -31,7 +43,7 @@ void write_text(AtomicFile& file, const TriangleMesh& mesh) {
     }
     file.write("endloop\nendfacet\n");
   }
-  file.write("endsolid meshbound\n");
+  file.write("endsolid " + solid + "\n");
 }
 
 void put_floats(AtomicFile& file, const Eigen::Vector3d& p) {
@@ -56,9 +68,10 @@ void write_records(AtomicFile& file, const TriangleMesh& mesh, const FileShare& 
 
 }  // namespace
 
-void write_stl(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options) {
+void write_stl(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options,
+               const MeshAttributes& attributes) {
   if (options.ascii) {
-    write_text(file, mesh);
+    write_text(file, mesh, attributes.groups);
   } else {
     write_header(file, mesh);
     write_records(file, mesh, {});

@@ -33,7 +33,9 @@ void write_obj(AtomicFile& file, const TriangleMesh& mesh, const MeshAttributes&
 void write_ply(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options,
                const MeshAttributes& attributes);
 void write_ply_share(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options, const FileShare& share);
-void write_stl(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options);
+/// As text with a solid for each run of triangles in one group.
+void write_stl(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options,
+               const MeshAttributes& attributes);
 void write_stl_share(AtomicFile& file, const TriangleMesh& mesh, const FileShare& share);
 void write_gltf(AtomicFile& file, FileFormat format, const TriangleMesh& mesh, const MeshAttributes& attributes);
 void write_gltf(AtomicFile& file, FileFormat format, GltfContent content);

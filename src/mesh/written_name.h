@@ -5,6 +5,9 @@
 
 namespace meshbound {
 
+/// What STL calls a solid that has no name of its own.
+inline constexpr const char* name_of_unnamed_solid = "meshbound";
+
 /// A name as one line of a text file: a line break, or a backslash at its end or in front of one, which would join the
 /// line with the next, is a blank.
 [[nodiscard]] inline std::string name_on_a_line(std::string name) {
