@@ -295,6 +295,20 @@ TEST_F(GltfTool, WritesAllLevelsIntoOneFileAndATileset) {
   EXPECT_EQ(root["children"][0]["geometricError"], report["levels"][1]["distance"]["upper"]);
   EXPECT_GT(tiles["geometricError"].get<double>(), root["geometricError"].get<double>());
   EXPECT_EQ(root["refine"], "REPLACE");
+  EXPECT_FALSE(root.contains("transform"));
+  // Viewers turn (x, y, z) of a glTF file to (x, -z, y); the transform turns that so that the axis points up.
+  for (const auto& [up, turned] :
+       {std::pair("x", Eigen::Vector3d(2, 3, 1)), std::pair("z", Eigen::Vector3d(1, 2, 3))}) {
+    ASSERT_EQ(
+        run_tool(LOD_CHAIN, {in("in.glb"), in("up"), "--levels", "0.02", "--format", "glb", "--tileset", "--up", up})
+            .exit_code,
+        0);
+    const auto numbers = Json::parse(content_of(in("up/tileset.json")))["root"]["transform"].get<std::vector<double>>();
+    ASSERT_EQ(numbers.size(), 16U);
+    const Eigen::Matrix4d transform = Eigen::Map<const Eigen::Matrix4d>(numbers.data());
+    EXPECT_EQ((transform * Eigen::Vector4d(1, -3, 2, 1)).eval(), turned.homogeneous()) << up;
+    EXPECT_EQ(transform.determinant(), 1);
+  }
   EXPECT_EQ(run_tool(LOD_CHAIN, {in("in.glb"), in("x"), "--levels", "0.1", "--glb", in("x.glb")}).exit_code, 2);
   EXPECT_EQ(run_tool(LOD_CHAIN, {in("in.glb"), in("x"), "--levels", "0.1", "--format", "glb", "--glb", in("in.glb")})
                 .exit_code,

@@ -117,10 +117,22 @@ TEST_F(ToolConventions, UnknownOptionsNameTheNearestOnes) {
 }
 
 TEST_F(ToolConventions, LengthsWithAUnitAreRefusedWithAdvice) {
-  for (const char* length : {"0.05mm", "0.05µm", "0.05px"})
+  for (const char* length : {"0.05mm", "0.05µm", "0.05px", "0.05 mm"})
     expect_refused(simplify({"--tolerance", length}),
                    "mesh files carry no unit; give the number in the unit of the file (0.05)");
   expect_refused(simplify({"--tolerance", "mm"}), "give a number in model units (0.5)");
+  ASSERT_EQ(simplify({"--tolerance", "0.5%"}).exit_code, 0);
+  EXPECT_EQ(simplify({"--tolerance", "0.5 %"}, "blank.ply").exit_code, 0);
+  EXPECT_EQ(content_of(in("out.ply")), content_of(in("blank.ply")));
+}
+
+/// A run that ends at a target far below its tolerance is measured as closely as one that the tolerance ends.
+TEST_F(ToolConventions, TargetsEndInANarrowInterval) {
+  ASSERT_EQ(simplify({"--tolerance", "100%", "--target-faces", "200", "--json", in("r.json")}).exit_code, 0);
+  const Json distance = checked_document(content_of(in("r.json")))["distance"];
+  const double upper = distance["upper"].get<double>(), lower = distance["lower"].get<double>();
+  EXPECT_LE(upper - lower, 0.01 * upper);
+  EXPECT_GT(lower, 0);
 }
 
 TEST_F(ToolConventions, TargetsAreSharesOrPercentages) {
@@ -313,6 +325,7 @@ TEST_F(ToolConventions, ToolsThatDecimateTellRoundingFromWrongProofs) {
     EXPECT_EQ(run.exit_code, 1);
     EXPECT_EQ(testing_tools::line_count(run.err), 1) << run.err;
     EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
+    EXPECT_EQ(run.out, "");
     return run.err;
   };
   const auto lines = [&](const std::string& tolerance) {
@@ -334,6 +347,28 @@ TEST_F(ToolConventions, ToolsThatDecimateTellRoundingFromWrongProofs) {
         run_tool(SIMPLIFY_WITH_BOUND, {in("moved.off"), in("none.stl"), "--tolerance", "0.1", "--time-limit", seconds}),
         "the tolerance is smaller than the rounding of the output format");
   EXPECT_FALSE(std::filesystem::exists(in("none.stl")));
+}
+
+/// Where nothing collapses because floats are too coarse, the summary says what to do; doubles go on.
+TEST_F(ToolConventions, TellWhenFloatsLeaveNoRoomForCollapses) {
+  TriangleMesh far = datasets::cube(64, 8);
+  for (Eigen::Vector3d& p : far.vertices) p += Eigen::Vector3d(500000, 5400000, 460);
+  write_mesh(in("far.ply"), far);
+  const std::string remedy = "nothing collapsed; use PLY, OFF or OBJ, or move the mesh to the origin";
+  for (const char* const out : {"out.glb", "out.stl"}) {
+    const ToolRun run = run_tool(SIMPLIFY_WITH_BOUND, {in("far.ply"), in(out), "--tolerance", "0.1"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find(remedy), std::string::npos) << run.out;
+  }
+  EXPECT_NE(run_tool(LOD_CHAIN, {in("far.ply"), in("chain"), "--levels", "0.1", "--format", "glb"}).out.find(remedy),
+            std::string::npos);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{in("far.ply"), in("out.ply"), "--tolerance", "0.1"},
+        {in("far.ply"), in("out.glb"), "--tolerance", "0.3"},
+        {in("far.ply"), in("out.glb"), "--tolerance", "0"}}) {
+    const ToolRun run = run_tool(SIMPLIFY_WITH_BOUND, words);
+    EXPECT_EQ(run.out.find("use PLY"), std::string::npos) << run.out;
+  }
 }
 
 /// Rounding to floats may move a seam where the surface stays as it is: here only its vertices are none of floats.

@@ -74,7 +74,7 @@ void declare(CLI::App& app, Options& options) {
                  "shown where its proven error covers at most a pixel (or the first of --pixels)");
   app.add_flag("--tileset", options.tileset,
                "With --format glb: write DIR/tileset.json, too, for viewers of 3D Tiles; geometricError is the proven "
-               "error of each level");
+               "error of each level. Viewers take y as up; --up z where it is the z axis of IN");
   add_report_options(app, options.deviation);
   add_appearance_options(app, options);
   add_decimation_options(app, options);
@@ -178,8 +178,9 @@ int Run::operator()() {
   }
   if (!options_.common.json.empty()) write_text(options_.common.json, to_json(report_));
   if (report_.deviation) deviation_->write(to_json(report_));
-  if (options_.common.json != "-" && !options_.common.quiet) print_summary();
-  if (report_.verdict != Verdict::Within)
+  const bool is_within = report_.verdict == Verdict::Within;
+  if (is_within && options_.common.json != "-" && !options_.common.quiet) print_summary();
+  if (!is_within)
     std::fprintf(stderr, "lod_chain: %s; nothing was written\n", obstacle_.c_str());
   else if (ended_by_time_)
     std::fprintf(stderr, "lod_chain: the time limit came first: levels are the best meshes that were proven by then\n");
@@ -226,7 +227,9 @@ void Run::check_paths() const {
   const std::size_t of_view = std::max(options_.pixels.size(), options_.distances.size());
   for (std::size_t i = 0; i < options_.levels.size() + of_view; ++i) outputs.push_back({"DIR", level_path(i)});
   require_distinct_files({{"IN", options_.input}, {"--feature-edges", options_.feature_edges}}, outputs);
-  options_.deviation.check();
+  DeviationRequest request = options_.deviation;
+  request.has_tileset = options_.tileset;
+  request.check();
 }
 
 void Run::read() {
@@ -350,7 +353,7 @@ void Run::measure_deviation() {
   subject.original_name = "original";
   subject.result_name = "level " + std::to_string(outputs_.size() - 1);
   subject.scale = scale_for(tolerances_.back(), coarsest.distance().bounds, diagonal_);
-  subject.measurement = repeated(tolerances_.back(), report_.levels.back().decided_by);
+  subject.measurement = repeated(coarsest, tolerances_.back(), report_.levels.back().decided_by);
   subject.maxima = maxima_of(coarsest.distance());
   for (std::size_t i = 0; i + 1 < outputs_.size(); ++i)
     subject.levels.push_back({outputs_[i].written_mesh(), maxima_of(outputs_[i].distance())});
@@ -395,7 +398,7 @@ void Run::write_tileset() const {
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(levels.back().error);  // a level may stand out by that
   box.extend(Eigen::Vector3d(box.min() - margin));
   box.extend(Eigen::Vector3d(box.max() + margin));
-  write_text(tileset_path(), tileset(levels, box));
+  write_text(tileset_path(), tileset(levels, box, options_.deviation.up));
 }
 
 /// Levels of an earlier run in the same folder that this run neither reads nor writes.
@@ -414,8 +417,10 @@ std::vector<std::filesystem::path> Run::stale_files() const {
 
 void Run::print_summary() const {
   print_line("original", options_.input + ", " + face_count(report_.original.summary.faces));
-  for (const LodReport::Level& level : report_.levels) {
+  for (std::size_t i = 0; i < report_.levels.size(); ++i) {
+    const LodReport::Level& level = report_.levels[i];
     print_line(level.file, face_count(level.faces) + ", tolerance " + both_units(level.tolerance, diagonal_));
+    if (level.stopped_by == to_string(EndedBy::Rounding)) print_line("", rounding_reason(outputs_[i], level.tolerance));
     print_line("", "distance " + interval(level.distance.bounds));
     print_lines(level.lines, diagonal_);
     if (level.normals) print_normals(*level.normals);

@@ -92,6 +92,7 @@ const HausdorffDistance& GatedOutput::measure(MeshWithTree& original, const Dist
   verdict_ = Verdict::Undecided;
   texture_.reset();
   normals_.reset();
+  narrowed_to_.reset();
   const MeshFile file = written_file(stop_, original_texture_.has_value());
   const TriangleMesh& mesh = file.mesh;
   summary_ = summarise(mesh);
@@ -100,6 +101,19 @@ const HausdorffDistance& GatedOutput::measure(MeshWithTree& original, const Dist
   if (original_lines_ != nullptr && verdict_ == Verdict::Within) measure_lines(mesh, options);
   if (verdict_ == Verdict::Within) look_at(file, options.threads);
   return distance_;
+}
+
+bool GatedOutput::narrow(MeshWithTree& original, const DistanceOptions& options) {
+  try {
+    HausdorffDistance narrower = distance_between(original, written_file(stop_, false).mesh, options, stop_);
+    for (const OneSidedDistance* direction : {&narrower.a_to_b, &narrower.b_to_a})
+      if (direction->outcome != Outcome::Converged) return false;
+    distance_ = std::move(narrower);
+    narrowed_to_ = options.error_bound;
+    return true;
+  } catch (const Stopped&) {
+    return false;
+  }
 }
 
 void GatedOutput::look_at(const MeshFile& level, int threads) {

@@ -85,6 +85,11 @@ class GatedOutput {
   /// file holds the original.
   const HausdorffDistance& measure(MeshWithTree& original, const DistanceOptions& options);
   [[nodiscard]] Verdict verdict() const { return verdict_; }
+  /// Measures the distance again, to the `error_bound` of `options`. False, and nothing is changed, where that is not
+  /// reached in time.
+  [[nodiscard]] bool narrow(MeshWithTree& original, const DistanceOptions& options);
+  /// What `narrow` has measured the distance to, model units; absent: it is that of `measure`.
+  [[nodiscard]] std::optional<double> narrowed_to() const { return narrowed_to_; }
   /// Measures texture and normals, as far as they are required, of a mesh that is not written yet. Where the file reads
   /// like it, `measure` finds that known.
   void look_at(const MeshFile& level, int threads);
@@ -131,6 +136,7 @@ class GatedOutput {
   std::unique_ptr<AtomicFile> file_;
   Verdict verdict_ = Verdict::Undecided;
   HausdorffDistance distance_;
+  std::optional<double> narrowed_to_;
   const OriginalLines* original_lines_ = nullptr;
   std::optional<OriginalTexture> original_texture_;
   TextureComparison texture_comparison_;

@@ -13,7 +13,7 @@ namespace meshbound::tools {
 
 namespace {
 
-/// A finite number that is not negative, and what stands behind it.
+/// A finite number that is not negative, and what stands behind it, without blanks between: "0.1 %" is "0.1%".
 struct Quantity {
   bool is_valid = false;
   double value = 0;
@@ -25,7 +25,8 @@ Quantity parse_quantity(const std::string& text) {
   const char* end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, quantity.value);
   quantity.is_valid = error == std::errc{} && std::isfinite(quantity.value) && quantity.value >= 0;
-  quantity.unit.assign(rest, end);
+  const char* const unit = std::find_if(rest, end, [](char c) { return c != ' '; });
+  quantity.unit.assign(unit, end);
   return quantity;
 }
 

@@ -12,10 +12,11 @@ struct Length {
   [[nodiscard]] double in_model_units(double diagonal) const { return is_percentage ? value / 100 * diagonal : value; }
 };
 
-/// Throws `InvalidInput`, naming `option`, unless `text` is a finite number that is not negative, "%" allowed after it.
+/// Throws `InvalidInput`, naming `option`, unless `text` is a finite number that is not negative, "%" or " %" allowed
+/// after it.
 [[nodiscard]] Length parse_length(const std::string& option, const std::string& text);
 
-/// A share from 0 to 1 as typed: "0.5" or "50%". Throws `InvalidInput`, naming `option`, for anything else.
+/// A share from 0 to 1 as typed: "0.5", "50%" or "50 %". Throws `InvalidInput`, naming `option`, for anything else.
 [[nodiscard]] double parse_share(const std::string& option, const std::string& text);
 
 /// A length in both units: "0.0123 (0.1% of the diagonal)".

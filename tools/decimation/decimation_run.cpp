@@ -24,6 +24,7 @@
 #include "mesh/writers.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
+#include "meshbound/mesh_summary.h"
 #include "numeric/no_index.h"
 
 namespace meshbound::tools {
@@ -87,7 +88,8 @@ DecimationRun::DecimationRun(const DecimationOptions& options)
 
 void DecimationRun::read_original(MeshReport& report, bool with_checksum, const std::filesystem::path& output) {
   const FileFormat format = format_of(output);
-  const bool carries = !shared_.drop_attributes && carries_attributes(format);
+  const bool carries_solids = format == FileFormat::Stl && shared_.write.ascii;
+  const bool carries = !shared_.drop_attributes && (carries_attributes(format) || carries_solids);
   const StopToken stop = stop_of_reading(shared_.common, watch_);
   if (shared_.workers != nullptr) {
     stored_original_ = read_stored_input(shared_.input, with_checksum, report, stop, *shared_.workers);
@@ -102,7 +104,11 @@ void DecimationRun::read_original(MeshReport& report, bool with_checksum, const 
   }
   output_format_ = output.extension().string();
   output_carries_texture_ = carries_texture_coordinates(format);
-  if (carries) attributes_ = carried_by(format, std::move(attributes_), *report.dropped);
+  if (carries) {
+    TriangleLabels solids = carries_solids ? std::exchange(attributes_.groups, {}) : TriangleLabels();
+    attributes_ = carried_by(format, std::move(attributes_), *report.dropped);
+    if (carries_solids) attributes_.groups = std::move(solids);
+  }
   if (!shared_.texture_tolerance.empty()) texture_as_read_.materials = attributes_.materials;
   if (shared_.strict && *report.dropped != DroppedAttributes{})
     throw InvalidInput(lost_attributes(shared_, output, *report.dropped));
@@ -172,8 +178,7 @@ SimplifyOptions DecimationRun::decimation(const GatedOutput& output, double tole
   if (shared_.placement == "subset") options.placements = CollapsePlacements::Subset;
   options.normal_tolerance = shared_.normal_tolerance;
   if (bounds_texture()) guard_texture(texture_tolerance_of(tolerance), options);
-  // Frames of nodes round by themselves (`rounding_`).
-  options.precision = rounding_ > 0 ? Precision::Double : output.precision();
+  options.precision = rounds_to_floats(output) ? Precision::Single : Precision::Double;
   options.time_limit = remaining(simplify_share);
   options.threads = threads_;
   options.cancel = &interrupted_;
@@ -214,9 +219,9 @@ DistanceOptions DecimationRun::measurement(double tolerance) const {
   return options;
 }
 
-RepeatedMeasurement DecimationRun::repeated(double tolerance, DecidedBy how) const {
+RepeatedMeasurement DecimationRun::repeated(const GatedOutput& output, double tolerance, DecidedBy how) const {
   RepeatedMeasurement repeated;
-  repeated.error_bound = measurement(tolerance).error_bound;
+  repeated.error_bound = output.narrowed_to() ? output.narrowed_to() : measurement(tolerance).error_bound;
   repeated.tolerance = tolerance;
   if (how == DecidedBy::SecondMethod || how == DecidedBy::SmallerLevel)
     repeated.obstacle = "The engine of this page cannot repeat how this was measured: " + explanation(how) + ".";
@@ -271,16 +276,56 @@ DecidedBy DecimationRun::make_output(GatedOutput& output, double tolerance, cons
                   ": rounding coordinates to this format alone moves the texture or turns faces by more than their "
                   "tolerance; use PLY or OBJ, or a larger tolerance; nothing was written");
     }
+    if (how == DecidedBy::Measurement && level.ended_by == EndedBy::Target) {
+      narrow(output, tolerance);
+      seconds.certify += watch_.lap();
+    }
     const bool has_more_faces = steps.smaller != nullptr && output.summary().faces > steps.smaller->summary().faces;
     return has_more_faces ? fall_back(output, steps.smaller, measurement(tolerance)) : how;
   }
 }
 
+/// Measures the distance to 1% of itself: where a target ended the run, the tolerance may be far above it. Does not
+/// where a width was asked for, or the time limit comes.
+void DecimationRun::narrow(GatedOutput& output, double tolerance) {
+  if (!shared_.error_bound.empty()) return;
+  DistanceOptions options = measurement(tolerance);
+  for (;;) {  // each time to 1% of the upper bound before, which is above the distance by less and less
+    const Bounds& bounds = output.distance().bounds;
+    options.error_bound = narrow_enough(bounds.upper);
+    const bool is_narrow = bounds.upper - bounds.lower <= *options.error_bound;
+    if (is_narrow || is_out_of_time() || !output.narrow(measured_original_, options)) return;
+  }
+}
+
+/// Frames of nodes round by themselves (`rounding_`).
+bool DecimationRun::rounds_to_floats(const GatedOutput& output) const {
+  return rounding_ == 0 && output.precision() == Precision::Single;
+}
+
+/// What to do where the floats of the output are too coarse.
+std::string DecimationRun::without_floats() const {
+  return std::string("use PLY, OFF or OBJ") + (shared_.write.single_precision ? ", without --single-precision" : "") +
+         ", or move the mesh to the origin";
+}
+
+std::string DecimationRun::rounding_reason(const GatedOutput& output, double tolerance) const {
+  Eigen::AlignedBox3d box;
+  if (stored_original_)
+    stored_original_->for_each_vertex([&](std::uint32_t, const Eigen::Vector3d& p) { box.extend(p); });
+  else
+    box = used_bounding_box(original_);
+  const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  constexpr double sufficient = 16;  // with doubles a run collapses edges from 10 times the rounding of its frame on
+  const bool floats_are_to_blame = rounds_to_floats(output) && tolerance > sufficient * rounding_of_frame * largest;
+  return "the tolerance is below the rounding of the coordinates" +
+         (floats_are_to_blame ? " to the floats of " + output_format_ + ": nothing collapsed; " + without_floats()
+                              : ": nothing collapsed");
+}
+
 /// What keeps an output from its tolerances where rounding to its format alone exceeds them; else empty.
 std::string DecimationRun::obstacle_of(const GatedOutput& output, double tolerance, bool is_original) const {
-  const std::string is_small = " is smaller than the rounding of the output format",
-                    advice = std::string("use PLY, OFF or OBJ") +
-                             (shared_.write.single_precision ? ", without --single-precision" : "");
+  const std::string is_small = " is smaller than the rounding of the output format", advice = without_floats();
   if (verdict_of(output.distance().bounds, tolerance) != Verdict::Within)
     return is_original ? "the tolerance" + is_small + "; " + advice : "";
   if (!original_lines_) return "";

@@ -50,7 +50,7 @@ class DecimationRun {
   /// Options of the measurement of a file.
   [[nodiscard]] DistanceOptions measurement(double tolerance) const;
   /// How a browser repeats the measurement of an output.
-  [[nodiscard]] RepeatedMeasurement repeated(double tolerance, DecidedBy how) const;
+  [[nodiscard]] RepeatedMeasurement repeated(const GatedOutput& output, double tolerance, DecidedBy how) const;
   /// What a decimation may use up of a tolerance: the rest is for the rounding in the frames of nodes.
   [[nodiscard]] double before_rounding(double tolerance) const;
   [[nodiscard]] bool is_out_of_time() const { return interrupted_ || remaining(1) == 0; }
@@ -58,6 +58,9 @@ class DecimationRun {
   [[nodiscard]] double remaining(double share) const;
   /// Notes the lines that outputs must keep: edges of the original.
   void set_lines(std::vector<Edge> lines);
+  /// Says why nothing collapsed where rounding alone may exceed the tolerance, and what to do where that is due to the
+  /// format of the output.
+  [[nodiscard]] std::string rounding_reason(const GatedOutput& output, double tolerance) const;
   /// Throws when a signal came.
   void end_if_interrupted() const;
   /// Says how far the lines of an output are from those of the original; none where there are no lines.
@@ -114,6 +117,9 @@ class DecimationRun {
   [[nodiscard]] const TriangleMesh& original_of_normals(const GatedOutput& output);
   void set_requirements(GatedOutput& output, double tolerance);
   [[nodiscard]] double narrow_enough(double tolerance) const;
+  [[nodiscard]] bool rounds_to_floats(const GatedOutput& output) const;
+  [[nodiscard]] std::string without_floats() const;
+  void narrow(GatedOutput& output, double tolerance);
   [[nodiscard]] std::string obstacle_of(const GatedOutput& output, double tolerance, bool is_original) const;
   [[nodiscard]] bool looks_wrong(GatedOutput& output, const SimplifiedLevel& level);
   void look_at(GatedOutput& output, const SimplifiedLevel& level);

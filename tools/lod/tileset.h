@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "deviation/camera.h"
 
 namespace meshbound::tools {
 
@@ -14,7 +17,9 @@ struct TileLevel {
 
 /// A tileset of 3D Tiles 1.1 whose tiles are levels, the finest first here, each refined by the finer one: their
 /// `geometricError` is the proven error, which must not fall from level to level. `box` holds the original and every
-/// level, in the frame of the glTF files, whose y axis is the z axis of tiles.
-[[nodiscard]] std::string tileset(const std::vector<TileLevel>& levels, const Eigen::AlignedBox3d& box);
+/// level, in the frame of the glTF files. Viewers take its y axis as the one that points up, the z axis of tiles;
+/// another `up` axis is turned there by the `transform` of the root, which only exchanges axes and so rounds nothing.
+[[nodiscard]] std::string tileset(const std::vector<TileLevel>& levels, const Eigen::AlignedBox3d& box,
+                                  std::optional<UpAxis> up);
 
 }  // namespace meshbound::tools

@@ -313,7 +313,7 @@ void Run::measure_deviation() {
   const auto worst = worst_spot(distance.bounds, distance.a_to_b, &distance.b_to_a);
   subject.worst_is_on_original = !worst || worst->on_a;
   subject.maxima = maxima_of(distance);
-  subject.measurement = repeated(tolerances_.back(), decided_by_.back());
+  subject.measurement = repeated(out, tolerances_.back(), decided_by_.back());
   if (!options_.deviation.report.empty())
     for (std::size_t i = 0; i + 1 < outputs_.size(); ++i)
       subject.levels.push_back({outputs_[i].written_mesh(), maxima_of(outputs_[i].distance())});
@@ -360,8 +360,11 @@ void Run::report() {
   if (!options_.common.json.empty()) write_text(options_.common.json, to_json(report_));
   if (report_.deviation) deviation_->write(to_json(report_));
   const bool is_stdout_taken = options_.common.json == "-" || is_stream_path(options_.output);
-  if (!is_stdout_taken && !options_.common.quiet)
-    print_summary({options_, report_, result_, outputs_, decided_by_, ended_by_time(), diagonal_});
+  if (verdict_ == Verdict::Within && !is_stdout_taken && !options_.common.quiet) {
+    const bool is_rounded = result_.last().ended_by == EndedBy::Rounding;
+    print_summary({options_, report_, result_, outputs_, decided_by_, ended_by_time(), diagonal_,
+                   is_rounded ? rounding_reason(out, report_.tolerance) : ""});
+  }
   if (verdict_ == Verdict::Within && ended_by_time())
     std::fprintf(stderr, "%s: the time limit came first: %s is the best mesh that was proven by then\n",
                  provenance().tool.c_str(), as_typed(options_.output).c_str());

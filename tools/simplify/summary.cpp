@@ -17,8 +17,7 @@ namespace {
 std::string end_reason(const FinishedRun& run) {
   const auto ended = run.result.last().ended_by;
   const bool had_target = run.options.target_faces.has_value() || !run.options.target_ratio.empty();
-  if (run.result.tolerance_below_rounding)
-    return "the tolerance is below the rounding of the coordinates: nothing collapsed";
+  if (!run.rounding.empty()) return run.rounding;
   if (run.is_ended_by_time && ended != EndedBy::TimeLimit)
     return "the time limit came before a smaller mesh was proven";
   const std::size_t vertices = run.report.original.summary.vertices;
@@ -70,7 +69,6 @@ void print_summary(const FinishedRun& run) {
                               run.options.scratch);
   if (!run.options.memory.empty())
     print_line("memory", in_mebibytes(static_cast<double>(peak_memory())) + " at most, of " + run.options.memory);
-  if (report.verdict != Verdict::Within) return;
   for (const GatedOutput& output : run.outputs)
     print_line("wrote", output.path().string() + ", " + face_count(output.summary().faces) + ", " +
                             interval(output.distance().bounds));

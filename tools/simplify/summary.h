@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <span>
+#include <string>
 
 #include "common/gated_output.h"
 #include "meshbound/report.h"
@@ -17,10 +18,11 @@ struct FinishedRun {
   std::span<const GatedOutput> outputs;   ///< of the levels that were asked for, then OUT
   std::span<const DecidedBy> decided_by;  ///< of the outputs
   bool is_ended_by_time = false;
-  double diagonal = 0;  ///< of the original, model units
+  double diagonal = 0;   ///< of the original, model units
+  std::string rounding;  ///< why nothing collapsed where rounding is to blame; empty: it is not
 };
 
-/// Prints the summary on stdout.
+/// Prints the summary of a run whose outputs are within their tolerances on stdout.
 void print_summary(const FinishedRun& run);
 
 }  // namespace meshbound::tools
