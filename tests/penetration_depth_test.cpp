@@ -424,6 +424,41 @@ TEST(PenetrationDepth, TheSameForAnyNumberOfThreads) {
   }
 }
 
+/// Four pegs in a bar, each deeper than the one before. The other pair is a corner in a corner.
+TEST(PenetrationDepth, AnswersWhatProgressAsksOfOtherPairs) {
+  const TriangleMesh bar = box({0, 0, 0}, {10, 1, 1});
+  TriangleMesh pegs;
+  for (const double depth : {0.1, 0.2, 0.3, 0.4})
+    pegs = both(pegs, box({20 * depth, 0.25, 1 - depth}, {20 * depth + 1, 0.75, 3}));
+  const ClosedModel a(bar), b(pegs), other(box({-1, -1, -1}, {0.25, 0.25, 0.25}));
+  PenetrationOptions options;
+  options.keep_parts = true;
+  const PenetrationDepth alone = penetration_depth(a, b, options);
+  const PenetrationDepth of_others = penetration_depth(a, other);
+  ASSERT_EQ(alone.volumes.size(), 4U);
+  for (const bool only_contact : {true, false}) {
+    int calls = 0;
+    options.progress = [&](double) {
+      ++calls;
+      EXPECT_TRUE(in_contact(a, other));
+      if (only_contact) return;
+      EXPECT_EQ(penetration_depth(a, other).depth.lower, of_others.depth.lower);
+      EXPECT_EQ(penetration_depth(a, b).depth.lower, alone.depth.lower);
+    };
+    const PenetrationDepth asked = penetration_depth(a, b, options);
+    EXPECT_EQ(calls, 4);
+    EXPECT_EQ(asked.depth.lower, alone.depth.lower);
+    EXPECT_EQ(asked.depth.upper, alone.depth.upper);
+    ASSERT_EQ(asked.volumes.size(), 4U);
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_EQ(asked.volumes[i].volume.lower, alone.volumes[i].volume.lower);
+      EXPECT_EQ(asked.volumes[i].on_a.position, alone.volumes[i].on_a.position);
+      EXPECT_EQ(asked.volumes[i].parts->on_a.vertices, alone.volumes[i].parts->on_a.vertices);
+    }
+    EXPECT_EQ(asked.stats.crossings, alone.stats.crossings);
+  }
+}
+
 TEST(PenetrationDepth, KeepsTheParts) {
   PenetrationOptions options;
   options.keep_parts = true;

@@ -73,8 +73,10 @@ struct PenetrationOptions {
   bool keep_parts = false;  ///< return V_A and V_B as meshes
   Budget budget;            ///< of the whole call; cuts of pieces count for each direction of each volume
   int threads = 1;          ///< 0: as many as OpenMP has. Results are the same for every value.
-  const std::atomic<bool>* cancel = nullptr;      ///< set to true from another thread or a signal handler to stop early
-  std::function<void(double fraction)> progress;  ///< called from the calling thread, a few times a second at most
+  const std::atomic<bool>* cancel = nullptr;  ///< set to true from another thread or a signal handler to stop early
+  /// Called from the calling thread, a few times a second at most. May call the library, for the same models too; what
+  /// it throws ends this call and is passed on.
+  std::function<void(double fraction)> progress;
 };
 
 /// How the two boundaries of a volume lie to one another.

@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "distance/default_error_share.h"
 #include "geometry/frame.h"
@@ -22,7 +24,6 @@
 namespace meshbound {
 namespace {
 
-/// Memory that a thread keeps from call to call.
 struct Scratch {
   PlacedPair pair;
   CrossingCurves curves;
@@ -31,10 +32,26 @@ struct Scratch {
   BoxPairMemory box_pairs;
 };
 
-Scratch& scratch() {
-  thread_local Scratch own;
-  return own;
-}
+/// Memory that a thread keeps from call to call. A call takes it away while it lasts: `progress` may ask for other
+/// pairs in the midst of it, which then have memory of their own.
+class BorrowedScratch {
+ public:
+  BorrowedScratch() : memory_(std::move(kept())) {
+    if (!memory_) memory_ = std::make_unique<Scratch>();
+  }
+  ~BorrowedScratch() { kept() = std::move(memory_); }
+  BorrowedScratch(const BorrowedScratch&) = delete;
+  BorrowedScratch& operator=(const BorrowedScratch&) = delete;
+  [[nodiscard]] Scratch& operator*() const { return *memory_; }
+
+ private:
+  static std::unique_ptr<Scratch>& kept() {
+    thread_local std::unique_ptr<Scratch> of_thread;
+    return of_thread;
+  }
+
+  std::unique_ptr<Scratch> memory_;
+};
 
 double checked(double length, const char* name) {
   if (!(length >= 0)) throw InvalidInput(std::string(name) + " must be a length of 0 or more");
@@ -243,7 +260,8 @@ PenetrationDepth penetration_depth(const PlacedClosedModel& a, const PlacedClose
                                                  : default_error_share * a.model->bounding_box_diagonal();
   if (options.decide) checked(*options.decide, "the depth to decide");
   const StopToken stop = StopToken{.cancel = options.cancel}.until(start, checked_seconds(options.budget.seconds));
-  Scratch& memory = scratch();
+  const BorrowedScratch scratch;
+  Scratch& memory = *scratch;
   memory.pair.place(a.model->data(), a.pose, b.model->data(), b.pose);
   PenetrationDepth result;
   const auto found = find_volumes(memory, options, error_bound, stop);
@@ -270,7 +288,8 @@ PenetrationDepth penetration_depth(const MeshView& a, const MeshView& b, const P
 }
 
 bool in_contact(const PlacedClosedModel& a, const PlacedClosedModel& b) {
-  Scratch& memory = scratch();
+  const BorrowedScratch scratch;
+  Scratch& memory = *scratch;
   PlacedPair& pair = memory.pair;
   pair.place(a.model->data(), a.pose, b.model->data(), b.pose);
   PairCounters counters;
