@@ -8,6 +8,8 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <utility>
+#include <vector>
 
 #if defined(MESHBOUND_WITH_CGAL)
 #include "meshbound/cgal/lod_chain.h"
@@ -125,6 +127,32 @@ TEST(LodChain, GoesOnFromTheLevelBefore) {
   EXPECT_EQ(second.collapses_performed - first.collapses_performed, (first.faces() - second.faces()) / 2);
   const SimplifyResult run = chain.describe();
   EXPECT_EQ(run.counts.proven_together + run.counts.proven_alone, second.collapses_performed);
+}
+
+/// How often two threads call `progress` depends on how they share the regions: at least once for each cut.
+TEST(LodChain, GoesOnAfterAnExceptionOfProgress) {
+  struct NoMore {};
+  const TriangleMesh mesh = datasets::torus(1, 0.4, 80, 60);
+  const std::vector<std::pair<int, int>> cases = {{1, 1}, {1, 2}, {1, 5}, {1, 12}, {1, 20}, {2, 1}, {2, 2}, {2, 3}};
+  for (const auto& [threads, call] : cases) {
+    SCOPED_TRACE(std::to_string(threads) + " threads, call " + std::to_string(call));
+    int left = 0;
+    LodOptions options;
+    options.threads = threads;
+    options.progress = [&](double) {
+      if (--left == 0) throw NoMore();
+    };
+    LodChain chain(mesh, options);
+    const LodLevel first = chain.next(0.002);
+    left = call;
+    EXPECT_THROW((void)chain.next(0.006), NoMore);
+    for (const double tolerance : {0.006, 0.02}) {
+      const LodLevel level = chain.next(tolerance);
+      EXPECT_EQ(level.verdict, Verdict::Within);
+      EXPECT_EQ(check_tolerance(mesh, level.mesh, tolerance).verdict, Verdict::Within);
+      EXPECT_LT(level.faces(), first.faces());
+    }
+  }
 }
 
 TEST(LodChain, TakesBuffersOfAnEngine) {

@@ -77,6 +77,21 @@ TEST(ForwardCover, KeepsVerticesApartThatShareAPlace) {
   }
 }
 
+/// As where an exception of the caller's ends the collapses of a chain that goes on later.
+TEST(EdgeQueue, LeavesOpenWhatIsInItAtItsEnd) {
+  EdgeNotes notes(9);
+  notes.refuse(0, 2);
+  {
+    EdgeQueue queue(notes);
+    for (Corner e = 1; e < 9; ++e) queue.put(e, 1);
+    notes.refuse(queue.pop(), 3);
+  }
+  for (Corner e = 0; e < 9; ++e) EXPECT_FALSE(notes.is_queued(e)) << e;
+  EXPECT_EQ(notes.deviation(0), 2);
+  EXPECT_EQ(notes.deviation(1), 3);
+  EXPECT_FALSE(notes.is_refused(2));
+}
+
 TEST(EdgeQueue, GivesTheCheapestFirstAndSharesItsNotesWithDeviations) {
   constexpr Corner edges = 300;
   EdgeNotes notes(edges);

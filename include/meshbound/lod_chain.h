@@ -38,6 +38,10 @@ class LodChain {
   /// The level of `tolerance`, model units: decimation goes on from the level before, and the result is measured
   /// against the original. Expected O(n log n) for all levels together, and a measurement for each. Throws
   /// `InvalidInput` when that is smaller than the one before, negative or not finite.
+  ///
+  /// After an exception of `progress` the chain goes on: this level may be asked for again, or a later one. They hold
+  /// as all do, and may differ from those of a chain that was left alone. After `std::bad_alloc` a chain may only be
+  /// destroyed.
   [[nodiscard]] LodLevel next(double tolerance);
 
   /// How far the texture of the levels that follow may move (`SimplifyOptions::texture_tolerance`, which is that of the

@@ -185,7 +185,6 @@ void Refiner::collapse_relaxed() {
     for (const Corner e : around_) queue.erase(e);
     mesh.for_each_edge(kept, [&](Corner e) { queue.put(e, edge_cost(state_, e, 1).cost); });
   }
-  queue.clear();
 }
 
 std::vector<Refiner::Task> tasks(const DecimationState& state, const Split& regions, const RefinementGoal& goal) {

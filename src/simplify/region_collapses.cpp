@@ -101,7 +101,6 @@ void RegionCollapses::collapse_all() {
       if (is_owned(e)) put(queue, e);
     });
   }
-  queue.clear();
 }
 
 }  // namespace meshbound

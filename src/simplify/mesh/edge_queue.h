@@ -14,6 +14,12 @@ class EdgeQueue {
   /// `notes` keep the index of each edge that is in a queue. Queues of different edges may share them. They must
   /// outlive this.
   explicit EdgeQueue(EdgeNotes& notes) : notes_(notes) {}
+  EdgeQueue(const EdgeQueue&) = delete;
+  EdgeQueue& operator=(const EdgeQueue&) = delete;
+  /// What is left becomes open, also where an exception ends the collapses: the notes are of use after it.
+  ~EdgeQueue() {
+    for (const Entry& entry : heap_) notes_.leave_queue(entry.edge);
+  }
 
   [[nodiscard]] bool empty() const { return heap_.empty(); }
   void put(Corner edge, float cost) {
@@ -43,10 +49,6 @@ class EdgeQueue {
     const Corner edge = heap_.front().edge;
     erase(edge);
     return edge;
-  }
-  void clear() {
-    for (const Entry& entry : heap_) notes_.leave_queue(entry.edge);
-    heap_.clear();
   }
 
  private:
