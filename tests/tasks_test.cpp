@@ -7,9 +7,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cfenv>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
+#include "meshbound/error.h"
+#include "numeric/rounding.h"
 #include "numeric/thread_count.h"
 
 namespace tasks_test {
@@ -105,6 +109,50 @@ TEST(Tasks, DoBothOfTwo) {
     EXPECT_THROW(with_team(threads, [&] { do_both([&] { ++first; }, [] { throw std::runtime_error("second"); }); }),
                  std::runtime_error);
   }
+}
+
+bool is_mode_of_bounds() {
+  try {
+    check_floating_point_model();
+  } catch (const Error&) {
+    return false;
+  }
+  return true;
+}
+
+/// An engine has started the threads of OpenMP in a mode of its own, and calls in the mode that bounds need.
+TEST(Tasks, RunInTheFloatingPointModeOfTheCaller) {
+  constexpr int threads = 3;
+#pragma omp parallel num_threads(threads)
+  if (omp_get_thread_num() != 0) std::fesetround(FE_UPWARD);
+  const auto threads_of_another_mode = [] {
+    std::atomic<int> others{0};
+#pragma omp parallel num_threads(threads)
+    others += is_mode_of_bounds() ? 0 : 1;
+    return others.load();
+  };
+  const int before = threads_of_another_mode();  // none with clang's OpenMP, which gives its threads the caller's mode
+  std::atomic<int> wrong{0};
+  on_each_thread(threads, [&] { wrong += is_mode_of_bounds() ? 0 : 1; });
+  on_any_thread(threads, 100, [&](std::size_t) { wrong += is_mode_of_bounds() ? 0 : 1; });
+  EXPECT_EQ(wrong, 0);
+  std::atomic<unsigned> seen{0};
+  with_team(threads, [&] {
+    for_each_task(100, [&](std::size_t i) {
+      seen |= 1U << omp_get_thread_num();
+      const auto is_alone = [&] { return (seen & (seen - 1)) == 0 && omp_get_num_threads() > 1; };
+      while (i == 0 && is_alone()) std::this_thread::yield();
+      for_each_task(4, [&](std::size_t) { wrong += is_mode_of_bounds() ? 0 : 1; });
+    });
+  });
+  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(threads_of_another_mode(), before) << "threads have their own mode again";
+#pragma omp parallel num_threads(threads)
+  std::fesetround(FE_TONEAREST);
+}
+
+TEST(Tasks, OfNoneNeedNoThread) {
+  on_any_thread(2, 0, [](std::size_t) { FAIL() << "there is nothing to do"; });
 }
 
 TEST(Tasks, RunOneAfterTheOtherOutsideAnyTeam) {

@@ -163,8 +163,7 @@ std::array<std::unique_ptr<const Bvh::Data>, count> build_all(const std::array<M
     });
   };
   if (needs_team(static_cast<int>(threads))) {
-#pragma omp parallel for num_threads(static_cast <int>(threads)) schedule(dynamic, 1)
-    for (std::size_t i = 0; i < count; ++i) build_one(i);
+    on_any_thread(static_cast<int>(threads), count, build_one);
   } else {
     for (std::size_t i = 0; i < count; ++i) build_one(i);
   }

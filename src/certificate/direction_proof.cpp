@@ -16,6 +16,7 @@
 #include "meshbound/error.h"
 #include "numeric/first_error.h"
 #include "numeric/no_index.h"
+#include "numeric/tasks.h"
 #include "numeric/thread_count.h"
 #include "proof/edge_neighbours.h"
 
@@ -118,8 +119,7 @@ std::optional<ProofTrees> DirectionProof::run(std::size_t max_patch,
   std::uint64_t& parity_work = trees.parity_work;
   std::atomic<bool> stop = false;
   FirstError error;
-#pragma omp parallel num_threads(threads)
-  {
+  on_each_thread(threads, [&] {
     std::optional<CutSearch> search;
     error.guard([&] { search.emplace(tree_.data(), neighbours_, goal_, magnitude_, max_patch); });
 #pragma omp for schedule(dynamic, 1)
@@ -135,7 +135,7 @@ std::optional<ProofTrees> DirectionProof::run(std::size_t max_patch,
     const std::uint64_t own_work = search ? search->parity_work() : 0;
 #pragma omp atomic
     parity_work += own_work;
-  }
+  });
   error.rethrow();
   for (const Failure& failure : failures)
     if (failure.outcome != CutSearch::Outcome::Proven) fail(failure);

@@ -13,6 +13,7 @@
 #include "numeric/first_error.h"
 #include "numeric/no_index.h"
 #include "numeric/numbers_below.h"
+#include "numeric/tasks.h"
 #include "numeric/thread_count.h"
 #include "simplify/ended_by.h"
 
@@ -92,15 +93,13 @@ void SceneRun::for_each_group(const Work& work) {
   };
   for (Group* const group : large_) timed(*group);
   FirstError error;
-  const int threads = thread_count(options_.threads);
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads) if (!small_.empty())
-  for (std::size_t i = 0; i < small_.size(); ++i) {
-    if (error.has_error()) continue;
+  on_any_thread(thread_count(options_.threads), small_.size(), [&](std::size_t i) {
+    if (error.has_error()) return;
     error.guard([&] {
       timed(*small_[i]);
       if (omp_get_thread_num() == 0) show(0);
     });
-  }
+  });
   error.rethrow();
   seconds_ += seconds_since(start);
 }

@@ -49,7 +49,8 @@ inline double next_up(double x) { return std::nextafter(x, std::numeric_limits<d
 inline double next_down(double x) { return std::nextafter(x, -std::numeric_limits<double>::infinity()); }
 
 /// Throws `Error` when this build or process does not compute as the model says (`-ffast-math`, flush to zero, another
-/// rounding mode, fused multiply-adds). Cheap; called when a tree is built.
+/// rounding mode, fused multiply-adds). Cheap; called by the calling thread of what needs the model. Threads that work
+/// for it take over its mode (numeric/floating_point_mode.h).
 void check_floating_point_model();
 
 }  // namespace meshbound

@@ -4,6 +4,8 @@
 /// where no other one comes: it waits only for tasks that another thread has begun, and once, at the end, for the team.
 /// A worksharing loop waits for all threads each time, which costs a time slice of the scheduler where other programs
 /// hold the processors. What a task does must not depend on which thread runs it, or when.
+///
+/// Whatever a thread does here, it does in the floating-point mode of the thread that called.
 #pragma once
 #include <omp.h>
 
@@ -15,6 +17,7 @@
 #include <utility>
 
 #include "numeric/first_error.h"
+#include "numeric/floating_point_mode.h"
 
 namespace meshbound {
 
@@ -34,6 +37,28 @@ void with_team(int threads, Work&& work) {
     error.guard(work);
   }
   error.rethrow();
+}
+
+/// Calls `work()` on each of `threads` threads, the calling one among them, or of as many as OpenMP gives. It must not
+/// throw.
+template <class Work>
+void on_each_thread(int threads, const Work& work) {
+  const FloatingPointMode of_caller;
+#pragma omp parallel num_threads(threads) default(none) shared(of_caller, work)
+  {
+    const BorrowedFloatingPointMode borrowed(of_caller);
+    work();
+  }
+}
+
+/// Calls work(0) ... work(count - 1), each on whichever of `threads` threads is free. It must not throw.
+template <class Work>
+void on_any_thread(int threads, std::size_t count, const Work& work) {
+  if (count == 0) return;
+  on_each_thread(threads, [&] {
+#pragma omp for schedule(dynamic, 1) nowait
+    for (std::size_t i = 0; i < count; ++i) work(i);
+  });
 }
 
 /// Throws `std::bad_alloc` if there is no memory for this many OpenMP tasks, where the OpenMP runtime would end the
@@ -73,9 +98,13 @@ void for_each_task(std::size_t count, Work&& work) {
   };
   const std::size_t helpers = std::min(count, static_cast<std::size_t>(omp_get_num_threads()));
   if (helpers > 1) require_memory_for_tasks(helpers);
+  const FloatingPointMode of_caller;
   for (std::size_t i = 1; i < helpers; ++i) {
-#pragma omp task default(none) shared(take_pieces)
-    take_pieces();
+#pragma omp task default(none) shared(of_caller, take_pieces)
+    {
+      const BorrowedFloatingPointMode borrowed(of_caller);
+      take_pieces();
+    }
   }
   apart(take_pieces);
 #pragma omp taskwait

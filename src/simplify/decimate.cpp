@@ -11,6 +11,7 @@
 #include "numeric/first_error.h"
 #include "numeric/no_index.h"
 #include "numeric/numbers_below.h"
+#include "numeric/tasks.h"
 #include "simplify/exceed_check.h"
 #include "simplify/minimax_step.h"
 #include "simplify/refine.h"
@@ -171,16 +172,15 @@ void Run::keep_what_has_no_face() {
 void Run::in_regions(Split split, const Work& work) {
   removed_ = 0;
   if (goal_.progress) goal_.progress(state_.faces);
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads_.count())
-  for (std::size_t r = 0; r < split.regions.size(); ++r) {
-    if (error_.has_error()) continue;
+  on_any_thread(threads_.count(), split.regions.size(), [&](std::size_t r) {
+    if (error_.has_error()) return;
     error_.guard([&] {
       const auto thread = static_cast<std::size_t>(omp_get_thread_num());
       threads_.proposers[thread]->enter(split, split.regions[r]);
       work(split, split.regions[r], *threads_.proposers[thread], *threads_.provers[thread]);
       split.regions[r].log.shrink_to_fit();  // it is kept until the next proof
     });
-  }
+  });
   merge(state_, std::move(split));
   error_.rethrow();
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "numeric/first_error.h"
+#include "numeric/tasks.h"
 #include "simplify/lower_deviation.h"
 #include "simplify/mesh/edge_queue.h"
 #include "simplify/region_collapses.h"
@@ -205,12 +206,11 @@ void refine_round(DecimationState& state, const std::vector<std::unique_ptr<Refi
   Split regions = split(state, round % shifts_of_split, min_vertices_refined, threads);
   const std::vector<Refiner::Task> work = tasks(state, regions, goal);
   FirstError error;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::size_t r = 0; r < work.size(); ++r) {
+  on_any_thread(threads, work.size(), [&](std::size_t r) {
     error.guard([&] {
       refiners[static_cast<std::size_t>(omp_get_thread_num())]->round(regions, regions.regions[r], round, work[r]);
     });
-  }
+  });
   error.rethrow();
   merge(state, std::move(regions));
 }

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "numeric/first_error.h"
+#include "numeric/tasks.h"
 #include "numeric/thread_count.h"
 
 namespace meshbound {
@@ -29,15 +30,14 @@ void ThreadRunner::run(TileJobs& jobs) {
   for (const std::size_t job : order) all += jobs.weight(job);
   std::atomic<std::uint64_t> done = 0;
   FirstError error;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads_)
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (error.has_error()) continue;
+  on_any_thread(threads_, order.size(), [&](std::size_t i) {
+    if (error.has_error()) return;
     error.guard([&] {
       jobs.run(order[i]);
       done += jobs.weight(order[i]);
       if (omp_get_thread_num() == 0) jobs.progress(static_cast<double>(done) / static_cast<double>(all));
     });
-  }
+  });
   error.rethrow();
 }
 
