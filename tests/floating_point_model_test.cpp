@@ -7,6 +7,7 @@
 #include <array>
 #include <cfenv>
 #include <cmath>
+#include <random>
 
 #include "mesh_files.h"
 #include "meshbound/collapse_checker.h"
@@ -14,9 +15,12 @@
 #include "meshbound/error.h"
 #include "meshbound/floating_point_scope.h"
 #include "meshbound/io.h"
+#include "meshbound/tiles.h"
 #include "reference/claims.h"
 #include "reference/small_meshes.h"
 #include "run_tool.h"
+#include "tiles/certificate_in_tiles.h"
+#include "tiles/decimate_in_tiles.h"
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -36,6 +40,31 @@ std::string refusal_of_a_tree() {
     return error.what();
   }
   return {};
+}
+
+/// An engine has started the threads of OpenMP in another mode, and calls in the one that bounds need.
+TEST(FloatingPointModel, ThreadsThatWereStartedInAnotherModeAnswerAsTheCallerDoes) {
+  constexpr int threads = 3;
+  const TriangleMesh mesh = moved(icosphere(4), {0.1, 0.2, 0.3});
+  const Bvh tree(mesh, BvhOptions{1});
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> coordinate(-1.5, 1.5);
+  std::vector<Eigen::Vector3d> queries(20000);
+  for (Eigen::Vector3d& q : queries) q = {coordinate(random), coordinate(random), coordinate(random)};
+  const std::vector<ClosestPoint> alone = closest_points(tree, queries, {1});
+  for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+#pragma omp parallel num_threads(threads)
+    if (omp_get_thread_num() != 0) std::fesetround(mode);
+    const std::vector<ClosestPoint> shared = closest_points(tree, queries, {threads});
+#pragma omp parallel num_threads(threads)
+    std::fesetround(FE_TONEAREST);
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < queries.size(); ++i)
+      if (shared[i].distance.lower != alone[i].distance.lower || shared[i].distance.upper != alone[i].distance.upper ||
+          shared[i].point.position != alone[i].point.position)
+        ++different;
+    EXPECT_EQ(different, 0U) << mode;
+  }
 }
 
 #if defined(__SSE2__)
@@ -78,6 +107,20 @@ TEST(FloatingPointModel, FlushToZeroIsRefusedByEveryQuestion) {
   refuses("closest", [&] { (void)closest_point(tree, {1, 2, 3}); });
   refuses("refit", [&] { tree.refit(moved); });
   refuses("admits", [&] { (void)checker.admits(0, 1, mesh.vertices[1]); });
+  // There is no time for a tile, and so for its tree.
+  DistanceOptions distance;
+  distance.budget.seconds = 0;
+  refuses("tiles", [&] { (void)hausdorff_distance_in_tiles(mesh, moved, distance); });
+  refuses("tiles, one side", [&] { (void)one_sided_hausdorff_distance_in_tiles(mesh, moved, distance); });
+  SimplifyOptions simplification;
+  simplification.tolerance = 0.1;
+  simplification.time_limit = 0;
+  ThreadRunner runner(1);
+  refuses("simplify", [&] { (void)decimate_in_tiles(MeshInMemory(mesh), simplification, {}, runner); });
+  CertificateOptions certificate;
+  certificate.seconds = 0;
+  refuses("certify",
+          [&] { (void)certify_in_tiles(MeshInMemory(mesh), MeshInMemory(moved), 0.1, certificate, {}, runner); });
   refuses("placement", [&] { (void)checker.admitted_placement(0, 1, mesh.vertices[1]); });
 }
 

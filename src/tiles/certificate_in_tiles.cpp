@@ -19,6 +19,7 @@
 #include "certificate/encoder.h"
 #include "meshbound/error.h"
 #include "numeric/checked_seconds.h"
+#include "numeric/rounding.h"
 #include "tiles/checked_tiles.h"
 #include "tiles/clusters.h"
 #include "tiles/compact_bytes.h"
@@ -242,6 +243,7 @@ std::optional<Certificate> certify_in_tiles(const StoredMesh& original, const St
   how.options.threads = 1;
   std::optional<Clusters> clusters_of_original, clusters_of_simplified;
   runner.do_together([&] {
+    check_floating_point_model();  // where no tree is built either
     clusters_of_original.emplace(original, checked(tiles).max_triangles);
     clusters_of_simplified.emplace(simplified, tiles.max_triangles);
   });

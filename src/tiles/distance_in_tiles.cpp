@@ -22,6 +22,7 @@
 #include "meshbound/mesh_view.h"
 #include "meshbound/tiles.h"
 #include "numeric/checked_seconds.h"
+#include "numeric/rounding.h"
 #include "tiles/checked_tiles.h"
 #include "tiles/clusters.h"
 #include "tiles/measure_in_tiles.h"
@@ -126,6 +127,7 @@ class TiledSearch {
       const double further = std::max(2 * reach, reach_.min);
       const Near near = near_to(b_, box, reach);
       if (near.triangles.empty()) {
+        if (!(further > reach) || is_stopped()) return unknown(tile.size());
         reach = further;
         continue;
       }
@@ -190,6 +192,7 @@ class TiledMeasurement {
     reach_ = {std::min(options.tolerance.value_or(diagonal), first_reach * diagonal),
               std::max(min_reach * diagonal, std::numeric_limits<double>::denorm_min())};  // grows by doubling
     runner_.do_together([&] {
+      check_floating_point_model();  // where no tree is built either
       a_.emplace(a, tiles_.max_triangles);
       b_.emplace(b, tiles_.max_triangles);
     });

@@ -9,6 +9,7 @@
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
 #include "meshbound/tiles.h"
+#include "numeric/rounding.h"
 #include "simplify/ended_by.h"
 #include "tiles/checked_tiles.h"
 #include "tiles/decimate_in_tiles.h"
@@ -138,6 +139,7 @@ class TiledRun {
 SimplifyResult decimate_in_tiles(const StoredMesh& original, const SimplifyOptions& options, const TileOptions& tiles,
                                  JobRunner& runner) {
   check_for_tiles(options);
+  runner.do_together(check_floating_point_model);
   if (!options.locked_vertices.empty() && options.locked_vertices.size() != original.vertex_count())
     throw InvalidInput("the locked vertices must be given for every vertex of the original, or not at all");
   return TiledRun(original, options, tiles, runner).run();
