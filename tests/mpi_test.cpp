@@ -55,6 +55,13 @@ TEST(TilesOverRanks, ThrowOnAllRanksWhatAJobOfOneThrows) {
   }
 }
 
+TEST(TilesOverRanks, ThrowOnAllRanksWhatTheProgressOfOneThrows) {
+  for (const int ranks : {1, 2}) {
+    const ToolRun run = run_ranks(ranks, TILES_OVER_RANKS, {"fail-in-progress"});
+    EXPECT_EQ(run.exit_code, 0) << ranks << " ranks: " << run.err;
+  }
+}
+
 TEST(TilesOverRanks, ReadFilesByRanges) {
   const TemporaryFolder folder;
   for (const std::string name : {"mesh.ply", "mesh.stl", "mesh.obj"}) {

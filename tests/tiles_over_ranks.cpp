@@ -201,6 +201,39 @@ void fail() {
   expect(ranks.sum(more.runs()) == 5, "that ranks go on after an error");
 }
 
+/// Rank 0 tells the progress, and its exception ends the run on all ranks.
+void fail_in_progress() {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 60, 40);
+  int calls = 0, failing = 0;
+  const auto progress = [&](double) {
+    if (++calls == failing) throw InvalidInput("no more");
+  };
+  SimplifyOptions simplification;
+  simplification.tolerance = 0.02;
+  simplification.threads = 2;
+  simplification.progress = progress;
+  DistanceOptions distance;
+  distance.progress = progress;
+  const auto said = [&](int call, const auto& work) {
+    calls = 0;
+    failing = call;
+    try {
+      work();
+    } catch (const InvalidInput& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const TileOptions tiles{800};
+  const auto simplify = [&] { (void)mpi::simplify_in_tiles(torus, simplification, MPI_COMM_WORLD, tiles); };
+  const auto measure = [&] { (void)mpi::hausdorff_distance_in_tiles(torus, torus, MPI_COMM_WORLD, distance, tiles); };
+  for (const int call : {1, 3}) {
+    expect(said(call, simplify) == "no more", "that every rank throws what the progress of one has thrown");
+    expect(said(call, measure) == "no more", "that every rank throws what the progress of one has thrown");
+  }
+  expect(said(0, simplify).empty() && said(0, measure).empty(), "that ranks go on after an error");
+}
+
 }  // namespace
 }  // namespace meshbound
 
@@ -218,6 +251,7 @@ int main(int argc, char** argv) {
   if (test_case == "write" && argc > 2) write(argv[2]);
   if (test_case == "hand-out") hand_out();
   if (test_case == "fail") fail();
+  if (test_case == "fail-in-progress") fail_in_progress();
   MPI_Finalize();
   return has_failed ? 1 : 0;
 }

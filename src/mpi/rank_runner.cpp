@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "numeric/first_error.h"
+#include "numeric/tasks.h"
 #include "numeric/thread_count.h"
 #include "tiles/compact_bytes.h"
 
@@ -66,6 +67,11 @@ class LocalQueue {
   [[nodiscard]] std::vector<Done> take_done() {
     const std::lock_guard lock(mutex_);
     return std::move(done_);
+  }
+  /// Does a step beside the jobs. If it throws, no further job is done.
+  template <class Step>
+  void guard(const Step& step) {
+    error_.guard(step);
   }
   [[nodiscard]] const FirstError& error() const { return error_; }
 
@@ -162,8 +168,10 @@ class Dealer {
     if (dealt_ == order_.size()) return no_job;
     const std::size_t job = order_[dealt_++];
     dealt_weight_ += jobs_.weight(job);
-    jobs_.progress(static_cast<double>(dealt_weight_) / static_cast<double>(weight_));
-    return static_cast<std::int64_t>(job);
+    queue_.guard([&] { jobs_.progress(static_cast<double>(dealt_weight_) / static_cast<double>(weight_)); });
+    if (!queue_.error().has_error()) return static_cast<std::int64_t>(job);
+    stop_dealing();
+    return no_job;
   }
   void stop_dealing() { dealt_ = order_.size(); }
 
@@ -185,8 +193,7 @@ RankRunner::RankRunner(Communicator& ranks, int threads) : ranks_(ranks), thread
 
 void RankRunner::run(TileJobs& jobs) {
   LocalQueue queue(jobs);
-#pragma omp parallel num_threads(threads_ + 1)
-  {
+  on_each_thread(threads_ + 1, [&] {
     const int workers = omp_get_num_threads() - 1;
     if (omp_get_thread_num() == 0) {
       Dealer(ranks_, jobs, queue, static_cast<std::size_t>(workers)).run(workers > 0);
@@ -194,7 +201,7 @@ void RankRunner::run(TileJobs& jobs) {
     } else {
       queue.work();
     }
-  }
+  });
   ranks_.do_together([&] { queue.error().rethrow(); });
   exchange(jobs, queue.take_done());
 }
@@ -223,9 +230,8 @@ void RankRunner::exchange(TileJobs& jobs, const std::vector<Done>& done) {
   }
   ranks_.do_together([&] {
     FirstError error;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads_)
-    for (std::size_t i = 0; i < results.size(); ++i)
-      error.guard([&] { jobs.unpack(results[i].job, results[i].bytes); });
+    on_any_thread(threads_, results.size(),
+                  [&](std::size_t i) { error.guard([&] { jobs.unpack(results[i].job, results[i].bytes); }); });
     error.rethrow();
   });
 }
