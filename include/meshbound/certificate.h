@@ -29,9 +29,10 @@ struct CertificateOptions {
   /// Time after which the search ends without a certificate; `InvalidInput` for a negative one and one that is no
   /// number.
   double seconds = std::numeric_limits<double>::infinity();
-  const std::atomic<bool>* cancel = nullptr;      ///< set to true from another thread or a signal handler to stop early
-  std::function<void(double fraction)> progress;  ///< called from the calling thread
-  std::optional<CertifiedLines> lines = {};       ///< absent: the certificate does not speak of lines
+  const std::atomic<bool>* cancel = nullptr;  ///< set to true from another thread or a signal handler to stop early
+  /// Called from the calling thread. May call the library; what it throws ends this call and is passed on.
+  std::function<void(double fraction)> progress;
+  std::optional<CertifiedLines> lines = {};  ///< absent: the certificate does not speak of lines
 };
 
 /// A proof, checkable without any of our code, that the symmetric Hausdorff distance between two meshes is at most a

@@ -38,10 +38,12 @@ struct DistanceOptions {
   std::optional<double> error_bound;
   /// When given, the upper bound is also refined until it is at most this wherever the truth allows it.
   std::optional<double> tolerance;
-  Budget budget;                                  ///< of the whole call
-  int threads = 0;                                ///< 0: as many as OpenMP has. Results are the same for every value.
-  const std::atomic<bool>* cancel = nullptr;      ///< set to true from another thread or a signal handler to stop early
-  std::function<void(double fraction)> progress;  ///< called from the calling thread, a few times a second at most
+  Budget budget;                              ///< of the whole call
+  int threads = 0;                            ///< 0: as many as OpenMP has. Results are the same for every value.
+  const std::atomic<bool>* cancel = nullptr;  ///< set to true from another thread or a signal handler to stop early
+  /// Called from the calling thread, a few times a second at most. May call the library, for the same models too; what
+  /// it throws ends this call and is passed on.
+  std::function<void(double fraction)> progress;
 };
 
 /// The width of an interval that is asked for where no other is given, model units: 1e-6 of the bounding-box diagonal

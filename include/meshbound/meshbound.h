@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// All of the core. What needs CGAL is in meshbound/cgal/.
+///
+/// After `fork()` the threads of OpenMP are missing in the child: a process that has used more than one thread calls
+/// `omp_pause_resource_all(omp_pause_soft)` before, or its child calls `exec` at once or asks for one thread.
 #pragma once
 #include "meshbound/attributes.h"
 #include "meshbound/bounds.h"

@@ -126,10 +126,12 @@ struct SimplifyOptions {
   bool certificate = false;
   /// Seconds after which decimation ends; `InvalidInput` for a negative number and one that is none.
   double time_limit = std::numeric_limits<double>::infinity();
-  int threads = 0;                                ///< 0: as many as OpenMP has. The result is the same for every value.
-  const std::atomic<bool>* cancel = nullptr;      ///< set to true from another thread or a signal handler to stop early
-  std::function<void(double fraction)> progress;  ///< called from the calling thread with an estimate of the share done
-  std::shared_ptr<const CollapseDriver> driver;   ///< null: the queue of the core
+  int threads = 0;                            ///< 0: as many as OpenMP has. The result is the same for every value.
+  const std::atomic<bool>* cancel = nullptr;  ///< set to true from another thread or a signal handler to stop early
+  /// Called from the calling thread with an estimate of the share done. May call the library, for the same models too;
+  /// what it throws ends this call and is passed on.
+  std::function<void(double fraction)> progress;
+  std::shared_ptr<const CollapseDriver> driver;  ///< null: the queue of the core
 };
 
 /// A simplified mesh and its distance from the original.
