@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
 #include <string>
 
 #include "mesh/gltf_document.h"
+#include "numeric/byte_order.h"
 
 namespace meshbound {
 namespace {
@@ -88,10 +88,7 @@ class AccessorReader {
 
   template <class T>
   static double as_number(const char* at, bool normalized) {
-    std::array<char, sizeof(T)> bytes;
-    std::memcpy(bytes.data(), at, sizeof(T));
-    if constexpr (std::endian::native != std::endian::little) std::reverse(bytes.begin(), bytes.end());
-    const auto value = static_cast<double>(std::bit_cast<T>(bytes));
+    const auto value = static_cast<double>(load_number<T>(at, std::endian::little));
     if (!normalized || std::is_floating_point_v<T>) return value;
     return std::max(value / static_cast<double>(std::numeric_limits<T>::max()), -1.0);
   }

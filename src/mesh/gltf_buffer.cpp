@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <set>
@@ -13,6 +12,7 @@
 
 #include "mesh/writers.h"
 #include "meshbound/error.h"
+#include "numeric/byte_order.h"
 
 namespace meshbound {
 namespace {
@@ -28,8 +28,8 @@ const char* type_of_width(std::size_t width) {
 
 template <class T>
 void append(std::string& to, T value) {
-  std::array<char, sizeof(T)> bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
-  if constexpr (std::endian::native != std::endian::little) std::reverse(bytes.begin(), bytes.end());
+  std::array<char, sizeof(T)> bytes;
+  store_number(value, bytes.data(), std::endian::little);
   to.append(bytes.data(), bytes.size());
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <optional>
 
 #include "mesh/data_uri.h"
@@ -13,6 +12,7 @@
 #include "mesh/gltf_references.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
+#include "numeric/byte_order.h"
 
 namespace meshbound {
 namespace {
@@ -45,9 +45,7 @@ constexpr std::array<std::string_view, 19> harmless_extensions = {"KHR_materials
                                                                   "MSFT_lod"};
 
 std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
-  std::uint32_t word = 0;
-  for (std::size_t k = 0; k < 4; ++k) word |= std::uint32_t{static_cast<std::uint8_t>(bytes[offset + k])} << (8 * k);
-  return word;
+  return load_number<std::uint32_t>(bytes.data() + offset, std::endian::little);
 }
 
 /// The two chunks of a GLB file, or the whole text of a glTF file.

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <type_traits>
 #include <vector>
 
 #include "meshbound/triangle_mesh.h"
+#include "numeric/byte_order.h"
 
 namespace meshbound {
 namespace {
@@ -193,16 +193,12 @@ class TriangleDecoder {
 
 template <class T>
 T integer_at(const char* at) {
-  std::make_unsigned_t<T> value = 0;
-  for (std::size_t k = 0; k < sizeof(T); ++k)
-    value = static_cast<std::make_unsigned_t<T>>(value | static_cast<std::uint8_t>(at[k]) << (8 * k));
-  return static_cast<T>(value);
+  return load_number<T>(at, std::endian::little);
 }
 
 template <class T>
 void put_integer(char* at, T value) {
-  for (std::size_t k = 0; k < sizeof(T); ++k)
-    at[k] = static_cast<char>((static_cast<std::make_unsigned_t<T>>(value) >> (8 * k)) & 0xffU);
+  store_number(value, at, std::endian::little);
 }
 
 /// The nearest integer to a number from -1 to 1 times the largest integer; 0 where it is none, which only malformed

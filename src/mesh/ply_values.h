@@ -4,12 +4,12 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <string>
 
 #include "mesh/mesh_source.h"
 #include "mesh/ply_header.h"
 #include "mesh/text_cursor.h"
+#include "numeric/byte_order.h"
 
 namespace meshbound {
 
@@ -69,8 +69,7 @@ class BinaryPlyValues {
  public:
   static constexpr bool is_text = false;
 
-  BinaryPlyValues(const MeshSource& source, std::size_t begin, std::endian order)
-      : source_(source), swap_(order != std::endian::native) {
+  BinaryPlyValues(const MeshSource& source, std::size_t begin, std::endian order) : source_(source), order_(order) {
     look_at(begin);
   }
 
@@ -141,11 +140,7 @@ class BinaryPlyValues {
       if (remaining() < sizeof(T)) fail_truncated();
       look_at(offset());
     }
-    char bytes[sizeof(T)];
-    std::memcpy(bytes, at_, sizeof(T));
-    if (swap_) std::reverse(bytes, bytes + sizeof(T));
-    T value;
-    std::memcpy(&value, bytes, sizeof(T));
+    const T value = load_number<T>(at_, order_);
     at_ += sizeof(T);
     return value;
   }
@@ -164,7 +159,7 @@ class BinaryPlyValues {
   const char* at_ = nullptr;
   const char* end_ = nullptr;
   std::size_t behind_ = 0;  ///< offset of `end_` in the file
-  bool swap_;
+  std::endian order_;
 };
 
 }  // namespace meshbound

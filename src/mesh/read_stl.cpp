@@ -3,7 +3,6 @@
 // bytes a triangle. The size tells them apart: binary headers that start with "solid" are common.
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -17,6 +16,7 @@
 #include "mesh/weld.h"
 #include "mesh/written_name.h"
 #include "meshbound/triangle_mesh.h"
+#include "numeric/byte_order.h"
 
 namespace meshbound {
 namespace {
@@ -151,16 +151,15 @@ class StlTextReader {
   std::size_t word_ = 0;      // where the last word starts
 };
 
-template <class T>
-T load_little_endian(const char* from) {
-  char bytes[sizeof(T)];
-  std::memcpy(bytes, from, sizeof(T));
-  if constexpr (std::endian::native != std::endian::little) std::reverse(bytes, bytes + sizeof(T));
-  return std::bit_cast<T>(bytes);
+std::size_t declared_triangles(std::string_view start) {
+  return load_number<std::uint32_t>(start.data() + count_offset, std::endian::little);
 }
 
-std::size_t declared_triangles(std::string_view start) {
-  return load_little_endian<std::uint32_t>(start.data() + count_offset);
+Eigen::Vector3d corner_at(const char* at) {
+  const auto coordinate = [at](std::size_t k) {
+    return load_number<float>(at + k * sizeof(float), std::endian::little);
+  };
+  return {coordinate(0), coordinate(1), coordinate(2)};
 }
 
 void read_records(const MeshSource& source, const FileShare& share, MeshAssembler& assembler) {
@@ -173,15 +172,14 @@ void read_records(const MeshSource& source, const FileShare& share, MeshAssemble
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t offset_in_record = corners_offset + k * 3 * sizeof(float);
       const std::size_t offset = records_offset + i * record_size + offset_in_record;
-      const char* const at = record + offset_in_record;
-      const Eigen::Vector3d p(load_little_endian<float>(at), load_little_endian<float>(at + sizeof(float)),
-                              load_little_endian<float>(at + 2 * sizeof(float)));
+      const Eigen::Vector3d p = corner_at(record + offset_in_record);
       if (assembler.vertex_count() == std::numeric_limits<std::uint32_t>::max())
         source.fail_at_byte(offset, "more than 2^32-1 vertices");
       triangle[k] = corners.add(p, offset);
     }
     assembler.add_polygon(triangle);
-    if (load_little_endian<std::uint16_t>(record + attribute_offset) != 0) ++assembler.dropped().facet_attributes;
+    if (load_number<std::uint16_t>(record + attribute_offset, std::endian::little) != 0)
+      ++assembler.dropped().facet_attributes;
   }
 }
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <algorithm>
 #include <bit>
 #include <charconv>
-#include <cstring>
 
 #include "mesh/atomic_file.h"
 #include "mesh/file_share.h"
 #include "meshbound/io.h"
+#include "numeric/byte_order.h"
 #include "numeric/rounded_to_float.h"
 
 namespace meshbound {
@@ -60,8 +59,7 @@ inline void put(AtomicFile& file, const Eigen::Vector3d& p, char after) {
 template <class T>
 void put_little_endian(AtomicFile& file, T value) {
   char* const to = file.room(sizeof(T));
-  std::memcpy(to, &value, sizeof(T));
-  if constexpr (std::endian::native != std::endian::little) std::reverse(to, to + sizeof(T));
+  store_number(value, to, std::endian::little);
   file.use(to + sizeof(T));
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <algorithm>
+#include <array>
 #include <bit>
-#include <cstring>
 #include <string>
 
 #include "deviation/base64.h"
+#include "numeric/byte_order.h"
 
 namespace meshbound::tools {
 
@@ -14,10 +14,9 @@ class PackedNumbers {
  public:
   template <class Number>
   void add(Number value) {
-    char raw[sizeof(Number)];
-    std::memcpy(raw, &value, sizeof(Number));
-    if constexpr (std::endian::native != std::endian::little) std::reverse(raw, raw + sizeof(Number));
-    bytes_.append(raw, sizeof(Number));
+    std::array<char, sizeof(Number)> raw;
+    store_number(value, raw.data(), std::endian::little);
+    bytes_.append(raw.data(), raw.size());
   }
   [[nodiscard]] std::string text() const { return base64(bytes_); }
 
