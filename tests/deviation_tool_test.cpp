@@ -8,11 +8,9 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <map>
 #include <sstream>
 
 #include "datasets/analytic_meshes.h"
-#include "deviation/base64.h"
 #include "deviation/checkerboard.h"
 #include "deviation/colour_map.h"
 #include "deviation/deviation_outputs.h"
@@ -509,19 +507,6 @@ TEST(ColourMap, RunsFromVioletToYellow) {
   EXPECT_EQ(tools::colour_of(1.0001), tools::colour_beyond);
   EXPECT_EQ(tools::colour_of(std::nan("")), tools::colour_beyond);
   EXPECT_EQ(tools::colour_of(-1), tools::colour_of(0));
-}
-
-/// The vectors of RFC 4648, section 10.
-TEST(Base64, IsTheStandardOne) {
-  const std::map<std::string, std::string> vectors = {{"", ""},
-                                                      {"f", "Zg=="},
-                                                      {"fo", "Zm8="},
-                                                      {"foo", "Zm9v"},
-                                                      {"foob", "Zm9vYg=="},
-                                                      {"fooba", "Zm9vYmE="},
-                                                      {"foobar", "Zm9vYmFy"},
-                                                      {std::string("\xff\x00\xfe", 3), "/wD+"}};
-  for (const auto& [bytes, text] : vectors) EXPECT_EQ(tools::base64(bytes), text);
 }
 
 }  // namespace deviation_tool_test

@@ -7,8 +7,11 @@
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <map>
+#include <string>
 
 #include "gltf_file.h"
+#include "mesh/data_uri.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
 #include "temporary_folder.h"
@@ -270,6 +273,19 @@ TEST_F(ReadGltf, ReadsNoFileOutsideOfRelativeNames) {
   }
   file.json["buffers"][0]["uri"] = "missing.bin";
   EXPECT_NE(refusal(file.json.dump(), "m.gltf").find("missing.bin: cannot read"), std::string::npos);
+}
+
+/// RFC 4648, section 10, and bytes that give the last two letters of the alphabet.
+TEST(EncodeBase64, GivesTheVectorsOfRfc4648) {
+  const std::map<std::string, std::string> vectors = {{"", ""},
+                                                      {"f", "Zg=="},
+                                                      {"fo", "Zm8="},
+                                                      {"foo", "Zm9v"},
+                                                      {"foob", "Zm9vYg=="},
+                                                      {"fooba", "Zm9vYmE="},
+                                                      {"foobar", "Zm9vYmFy"},
+                                                      {std::string("\xff\x00\xfe", 3), "/wD+"}};
+  for (const auto& [bytes, text] : vectors) EXPECT_EQ(encode_base64(bytes), text);
 }
 
 }  // namespace read_gltf_test

@@ -12,6 +12,7 @@ namespace meshbound {
 /// The bytes of a data URI in base64 (RFC 2397, RFC 4648); nothing where it is malformed or not in base64.
 [[nodiscard]] std::optional<std::string> decode_data_uri(std::string_view uri);
 
+/// Bytes as base64 with padding (RFC 4648, section 4).
 [[nodiscard]] std::string encode_base64(std::string_view bytes);
 
 /// The relative path that a URI names, "%20" and its like decoded; nothing for a URI with a scheme, an absolute path,

@@ -4,7 +4,7 @@
 #include <bit>
 #include <string>
 
-#include "deviation/base64.h"
+#include "mesh/data_uri.h"
 #include "numeric/byte_order.h"
 
 namespace meshbound::tools {
@@ -18,7 +18,7 @@ class PackedNumbers {
     store_number(value, raw.data(), std::endian::little);
     bytes_.append(raw.data(), raw.size());
   }
-  [[nodiscard]] std::string text() const { return base64(bytes_); }
+  [[nodiscard]] std::string text() const { return encode_base64(bytes_); }
 
  private:
   std::string bytes_;
