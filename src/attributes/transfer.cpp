@@ -10,6 +10,7 @@
 #include "mesh/attribute_check.h"
 #include "mesh/first_use.h"
 #include "mesh/no_value.h"
+#include "mesh/round_to_floats.h"
 #include "mesh/split_vertices.h"
 #include "meshbound/error.h"
 #include "meshbound/simplify.h"
@@ -90,7 +91,7 @@ Eigen::Vector3d direction(const std::array<Eigen::Vector3d, 3>& corners) {
 
 /// Whether the second point is the first one, or its rounding to floats.
 bool is_rounded(const Eigen::Vector3d& p, const Eigen::Vector3d& rounded) {
-  return rounded == p || rounded == p.cast<float>().cast<double>();
+  return rounded == p || rounded == rounded_to_float(p);
 }
 
 /// Whether every vertex of a level is known to stand where its source does, but for the rounding to floats.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "levels/level_run.h"
 
-#include "numeric/numbers_below.h"
+#include "levels/unchanged_level.h"
 #include "simplify/option_sizes.h"
 
 namespace meshbound {
@@ -34,13 +34,8 @@ void LevelRun::until_stopped(const Work& work) {
 }
 
 void LevelRun::take_original(SimplifiedLevel& level) const {
-  level.mesh = original_;
+  take_unchanged(original_, options_, level);
   level.lines = lines_;
-  if (options_.precision == Precision::Single)
-    for (Eigen::Vector3d& p : level.mesh.vertices) p = p.cast<float>().cast<double>();
-  level.source_vertex = numbers_below(original_.vertices.size());
-  level.source_triangle = numbers_below(original_.triangles.size());
-  level.texture_coordinates = options_.texture_coordinates;
 }
 
 SimplifiedLevel LevelRun::next(double tolerance, std::size_t target_faces) {

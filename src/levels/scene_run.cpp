@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "levels/measured_level.h"
+#include "levels/unchanged_level.h"
 #include "mesh/scene_layout.h"
 #include "meshbound/mesh_view.h"
 #include "numeric/first_error.h"
 #include "numeric/no_index.h"
-#include "numeric/numbers_below.h"
 #include "numeric/tasks.h"
 #include "numeric/thread_count.h"
 #include "simplify/ended_by.h"
@@ -158,12 +158,7 @@ void SceneRun::append(const Group& of, const SimplifiedLevel& part, SimplifiedLe
 
 SimplifiedLevel SceneRun::unchanged(const Group& of) const {
   SimplifiedLevel part;
-  part.mesh = of.group.mesh;
-  if (options_.precision == Precision::Single)
-    for (Eigen::Vector3d& p : part.mesh.vertices) p = p.cast<float>().cast<double>();
-  part.source_vertex = numbers_below(of.group.vertices.size());
-  part.source_triangle = numbers_below(of.group.triangles.size());
-  part.texture_coordinates = of.options.texture_coordinates;
+  take_unchanged(of.group.mesh, of.options, part);
   return part;
 }
 

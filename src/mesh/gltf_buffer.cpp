@@ -10,9 +10,9 @@
 #include <set>
 #include <utility>
 
-#include "mesh/writers.h"
 #include "meshbound/error.h"
 #include "numeric/byte_order.h"
+#include "numeric/rounded_to_float.h"
 
 namespace meshbound {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "mesh/no_value.h"
+#include "mesh/round_to_floats.h"
 #include "mesh/split_vertices.h"
-#include "mesh/writers.h"
 
 namespace meshbound {
 namespace {

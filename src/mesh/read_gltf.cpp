@@ -15,8 +15,8 @@
 #include "mesh/gltf_scene.h"
 #include "mesh/mesh_assembler.h"
 #include "mesh/readers.h"
+#include "mesh/round_to_floats.h"
 #include "mesh/weld.h"
-#include "mesh/writers.h"
 #include "meshbound/triangle_mesh.h"
 #include "numeric/no_index.h"
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "mesh/attribute_check.h"
+#include "mesh/round_to_floats.h"
 #include "mesh/weld.h"
 #include "mesh/writers.h"
 #include "meshbound/error.h"
@@ -61,8 +62,7 @@ TriangleMesh rounded_for(const std::filesystem::path& path, const TriangleMesh& 
   const FileFormat format = format_of(path);
   refuse_unwritable(path, format, mesh, options);
   TriangleMesh result = mesh;
-  if (stores_floats(format, options))
-    for (Eigen::Vector3d& p : result.vertices) p = rounded_to_float(p);
+  if (stores_floats(format, options)) round_to_floats(result);
   return format == FileFormat::Stl ? welded(result) : result;
 }
 

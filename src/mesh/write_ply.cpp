@@ -11,6 +11,7 @@
 #include "mesh/writers.h"
 #include "mesh/written_name.h"
 #include "numeric/numbers_below.h"
+#include "numeric/rounded_to_float.h"
 
 namespace meshbound {
 namespace {

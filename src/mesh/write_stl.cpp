@@ -4,6 +4,7 @@
 #include <string>
 
 #include "mesh/no_value.h"
+#include "mesh/round_to_floats.h"
 #include "mesh/writers.h"
 #include "mesh/written_name.h"
 

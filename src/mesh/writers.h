@@ -7,7 +7,6 @@
 #include "mesh/file_share.h"
 #include "meshbound/io.h"
 #include "numeric/byte_order.h"
-#include "numeric/rounded_to_float.h"
 
 namespace meshbound {
 
@@ -61,10 +60,6 @@ void put_little_endian(AtomicFile& file, T value) {
   char* const to = file.room(sizeof(T));
   store_number(value, to, std::endian::little);
   file.use(to + sizeof(T));
-}
-
-[[nodiscard]] inline Eigen::Vector3d rounded_to_float(const Eigen::Vector3d& p) {
-  return {rounded_to_float(p.x()), rounded_to_float(p.y()), rounded_to_float(p.z())};
 }
 
 }  // namespace meshbound

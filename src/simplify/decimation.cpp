@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "geometry/eigen_vec3.h"
+#include "mesh/round_to_floats.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
 #include "numeric/no_index.h"
@@ -462,7 +463,7 @@ Eigen::Vector3d Decimation::in_model(std::uint32_t vertex) const {
 }
 
 Eigen::Vector3d Decimation::as_written(const Eigen::Vector3d& point) const {
-  return options_.precision == Precision::Single ? Eigen::Vector3d(point.cast<float>().cast<double>()) : point;
+  return options_.precision == Precision::Single ? rounded_to_float(point) : point;
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "levels/measured_level.h"
+#include "mesh/round_to_floats.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
@@ -82,8 +83,7 @@ class TiledRun {
     SimplifiedLevel& level = result.levels.emplace_back();
     level.tolerance = options_.tolerance;
     runner_.do_together([&] { mesh_.current_mesh(level); });
-    if (options_.precision == Precision::Single)
-      for (Eigen::Vector3d& p : level.mesh.vertices) p = p.cast<float>().cast<double>();
+    if (options_.precision == Precision::Single) round_to_floats(level.mesh);
     level.ended_by = ended_by_;
     level.collapses_performed = counts_.proven_together + counts_.proven_alone;
     level.collapses_refused = counts_.refused;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tiles/tile_run.h"
 
+#include "mesh/round_to_floats.h"
 #include "numeric/numbers_below.h"
 #include "simplify/decimation.h"
 #include "tiles/tile_cut.h"
@@ -20,8 +21,7 @@ ProvenMesh covered_by_itself(const TriangleMesh& original) {
 TileOutput as_it_was(const TileInput& input, const SimplifyOptions& options, EndedBy ended_by) {
   TileOutput output;
   output.proven = input.start ? *input.start : covered_by_itself(input.original);
-  if (options.precision == Precision::Single)
-    for (Eigen::Vector3d& p : output.proven.mesh.vertices) p = p.cast<float>().cast<double>();
+  if (options.precision == Precision::Single) round_to_floats(output.proven.mesh);
   output.source_vertex = numbers_below(output.proven.mesh.vertices.size());
   output.source_triangle = numbers_below(output.proven.mesh.triangles.size());
   output.ended_by = ended_by;

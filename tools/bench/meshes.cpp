@@ -10,6 +10,7 @@
 
 #include "cgal_functions.h"
 #include "child_process.h"
+#include "mesh/round_to_floats.h"
 #include "meshbound/io.h"
 #include "meshbound/mesh_summary.h"
 
@@ -66,7 +67,7 @@ void vary(TriangleMesh& mesh, Variation variation) {
   if (variation == Variation::OtherOrder) shuffle(mesh, random);
   for (Eigen::Vector3d& p : mesh.vertices) {
     if (variation == Variation::Jittered) p += Eigen::Vector3d(offset(random), offset(random), offset(random));
-    if (variation == Variation::Float) p = p.cast<float>().cast<double>();
+    if (variation == Variation::Float) p = rounded_to_float(p);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "mesh/file_bytes.h"
 #include "mesh/mesh_arrays.h"
 #include "mesh/readers.h"
+#include "mesh/round_to_floats.h"
 #include "mesh/writers.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
@@ -68,8 +69,7 @@ Precision GatedOutput::precision() const {
 void GatedOutput::write(const TriangleMesh& mesh, std::span<const Edge> lines, const MeshAttributes& attributes) {
   restart();
   lines_ = line_mesh(mesh, lines);
-  if (precision() == Precision::Single && !attributes.document)
-    for (Eigen::Vector3d& p : lines_.vertices) p = rounded_to_float(p);
+  if (precision() == Precision::Single && !attributes.document) round_to_floats(lines_);
   if (workers_ != nullptr)
     workers_->write(*file_, path_, mesh, options_);
   else  // where a document places parts in frames of their own, floats are rounded there

@@ -20,6 +20,7 @@
 #include "decimation/dropped_attributes.h"
 #include "decimation/edge_file.h"
 #include "decimation/measurement_fault.h"
+#include "mesh/round_to_floats.h"
 #include "mesh/texture_transform.h"
 #include "mesh/writers.h"
 #include "meshbound/error.h"

@@ -7,7 +7,7 @@
 
 #include "deviation/packed_numbers.h"
 #include "mesh/file_bytes.h"
-#include "mesh/writers.h"
+#include "mesh/round_to_floats.h"
 #include "meshbound/error.h"
 
 namespace meshbound::tools {
