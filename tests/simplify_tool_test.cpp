@@ -431,7 +431,6 @@ class UnreadMesh : public MeshInMemory {
   using MeshInMemory::MeshInMemory;
   void read_vertices(std::size_t, std::span<Vec3>) const override { throw IoError("the vertices were read"); }
   void read_triangles(std::size_t, std::span<Triangle>) const override { throw IoError("the triangles were read"); }
-  [[nodiscard]] const TriangleMesh* in_memory() const override { return nullptr; }
 };
 
 /// Finds that every mesh is as near as it should be.

@@ -49,7 +49,6 @@ class Bvh {
   [[nodiscard]] std::size_t triangle_count() const;  ///< of the mesh, degenerate and duplicate ones included
   [[nodiscard]] const Eigen::AlignedBox3d& bounding_box() const;  ///< of the vertices that triangles use, model units
   [[nodiscard]] double bounding_box_diagonal() const;             ///< its length, model units
-  [[nodiscard]] std::size_t memory_bytes() const;                 ///< what the tree occupies now: queries may add to it
 
   struct Data;
   /// The tree itself, for the code of this library.

@@ -39,8 +39,7 @@ class LevelChecker {
   /// log n) for the level's tree, and the search for what changed.
   [[nodiscard]] HausdorffDistance measure(const MeshView& level, const DistanceOptions& options = {});
 
-  [[nodiscard]] const Bvh& original() const;       ///< its tree
-  [[nodiscard]] std::size_t memory_bytes() const;  ///< of what is kept, without the original's tree
+  [[nodiscard]] const Bvh& original() const;  ///< its tree
 
  private:
   struct Impl;

@@ -49,7 +49,6 @@ class LodChain {
   /// where the options have no texture coordinates.
   void set_texture_tolerance(double tolerance);
 
-  [[nodiscard]] const TriangleMesh& original() const;  ///< as it was given
   /// Facts about the run so far: a `SimplifyResult` without levels.
   [[nodiscard]] SimplifyResult describe() const;
 

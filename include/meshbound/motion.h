@@ -41,8 +41,6 @@ class MovingPair {
   [[nodiscard]] ToleranceCheck check_tolerance(const Pose& pose_a, const Pose& pose_b, double tolerance,
                                                const DistanceOptions& options = {});
 
-  [[nodiscard]] std::size_t memory_bytes() const;  ///< of what is kept, without the trees
-
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

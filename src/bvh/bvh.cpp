@@ -171,11 +171,6 @@ std::array<std::unique_ptr<const Bvh::Data>, count> build_all(const std::array<M
   return trees;
 }
 
-template <class Vector>
-std::size_t bytes(const Vector& v) {
-  return v.capacity() * sizeof(v[0]);
-}
-
 }  // namespace
 
 std::size_t useful_threads(int wanted, std::size_t triangles) {
@@ -222,12 +217,5 @@ std::pair<Bvh, Bvh> build_trees(const MeshView& a, const MeshView& b, const BvhO
 std::size_t Bvh::triangle_count() const { return data_->corners.size(); }
 const Eigen::AlignedBox3d& Bvh::bounding_box() const { return data_->bounding_box; }
 double Bvh::bounding_box_diagonal() const { return data_->diagonal; }
-
-std::size_t Bvh::memory_bytes() const {
-  const Data& d = *data_;
-  const std::size_t oriented = d.oriented.made ? bytes(d.oriented.nodes) : 0;
-  return sizeof(Data) + oriented + bytes(d.vertices) + bytes(d.source_vertex) + bytes(d.corners) + bytes(d.neighbours) +
-         bytes(d.normals) + bytes(d.triangle_of_slot) + bytes(d.nodes) + bytes(d.level_begin);
-}
 
 }  // namespace meshbound

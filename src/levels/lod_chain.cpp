@@ -72,8 +72,6 @@ void LodChain::set_texture_tolerance(double tolerance) {
   impl_->run.set_texture_tolerance(tolerance);
 }
 
-const TriangleMesh& LodChain::original() const { return impl_->original; }
-
 SimplifyResult LodChain::describe() const {
   SimplifyResult result;
   impl_->run.describe(result);

@@ -40,9 +40,8 @@ class AtomicFile {
 
   void write(std::string_view bytes);
 
-  /// Returns room for at least `size` bytes (`size` <= `max_room`). The caller fills it from the start and passes the
-  /// end of what it wrote to `use`, which adds those bytes to the file.
-  static constexpr std::size_t max_room = 4096;
+  /// Returns room for at least `size` bytes (at most the 1 MiB of the buffer). The caller fills it from the start and
+  /// passes the end of what it wrote to `use`, which adds those bytes to the file.
   [[nodiscard]] char* room(std::size_t size);
   void use(const char* end) { filled_ = static_cast<std::size_t>(end - buffer_.get()); }
 

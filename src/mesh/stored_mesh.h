@@ -29,8 +29,6 @@ class StoredMesh {
   virtual void read_triangles(std::size_t first, std::span<Triangle> to) const = 0;
   /// Where arrays of the size of this mesh are best kept.
   [[nodiscard]] virtual const StoreSpace& space() const = 0;
-  /// The mesh where all of it is in memory, or null.
-  [[nodiscard]] virtual const TriangleMesh* in_memory() const { return nullptr; }
 
   /// Calls use(number, position) for all vertices, in order.
   template <class Use>
@@ -58,7 +56,6 @@ class MeshInMemory : public StoredMesh {
   void read_vertices(std::size_t first, std::span<Vec3> to) const override;
   void read_triangles(std::size_t first, std::span<Triangle> to) const override;
   [[nodiscard]] const StoreSpace& space() const override { return space_; }
-  [[nodiscard]] const TriangleMesh* in_memory() const override { return &mesh_; }
 
  private:
   const TriangleMesh& mesh_;

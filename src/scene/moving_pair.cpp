@@ -5,13 +5,6 @@
 #include "meshbound/pose.h"
 
 namespace meshbound {
-namespace {
-
-std::size_t bytes(const SearchMemory& memory) {
-  return memory.hints.capacity() * sizeof(std::uint32_t) + memory.front.nodes.capacity() * sizeof(NodeFront::Node);
-}
-
-}  // namespace
 
 struct MovingPair::Impl {
   Impl(const Bvh& model_a, const Bvh& model_b) : a(&model_a), b(&model_b) {
@@ -52,7 +45,5 @@ ToleranceCheck MovingPair::check_tolerance(const Pose& pose_a, const Pose& pose_
                                            const DistanceOptions& options) {
   return meshbound::check_tolerance({*impl_->a, pose_a}, {*impl_->b, pose_b}, tolerance, options, impl_->memory());
 }
-
-std::size_t MovingPair::memory_bytes() const { return sizeof(Impl) + bytes(impl_->a_to_b) + bytes(impl_->b_to_a); }
 
 }  // namespace meshbound

@@ -13,8 +13,7 @@ namespace meshbound {
 struct TileStart {
   TriangleMesh mesh;
   std::vector<std::uint32_t> near;  ///< as in `ProvenMesh`
-  NumberLists cover;         ///< by original: triangles of `mesh` near it; empty where the tile does not cover it anew
-  bool is_original = false;  ///< `mesh` is the original
+  NumberLists cover;  ///< by original: triangles of `mesh` near it; empty where the tile does not cover it anew
 };
 
 /// What differs from the start: a result that hardly changed takes hardly any bytes, and one that changed takes about a

@@ -97,7 +97,7 @@ class TiledMesh::Jobs : public TileJobs {
     return bytes;
   }
   [[nodiscard]] TileStart start_of(MeshPart part, const TileNumbers& numbers) const {
-    return {std::move(part.mesh), mesh_.near_of(numbers), numbers.cover, mesh_.is_original_};
+    return {std::move(part.mesh), mesh_.near_of(numbers), numbers.cover};
   }
 
   TiledMesh& mesh_;

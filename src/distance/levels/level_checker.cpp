@@ -8,18 +8,6 @@
 #include "distance/unfinished.h"
 
 namespace meshbound {
-namespace {
-
-template <class T>
-std::size_t bytes(const std::vector<T>& v) {
-  return v.capacity() * sizeof(T);
-}
-
-std::size_t bytes(const SearchMemory& memory) {
-  return bytes(memory.proofs) + bytes(memory.faces) + bytes(memory.hints);
-}
-
-}  // namespace
 
 struct LevelChecker::Impl {
   /// What is known of the level that was checked last, for the original whose tree has that serial number.
@@ -94,12 +82,5 @@ HausdorffDistance LevelChecker::measure(const MeshView& level, const DistanceOpt
 }
 
 const Bvh& LevelChecker::original() const { return *impl_->original; }
-
-std::size_t LevelChecker::memory_bytes() const {
-  if (!impl_->known) return sizeof(Impl);
-  const Impl::Known& known = *impl_->known;
-  return sizeof(Impl) + bytes(known.level.vertices) + bytes(known.level.corners) + bytes(known.from_original) +
-         bytes(known.from_level);
-}
 
 }  // namespace meshbound

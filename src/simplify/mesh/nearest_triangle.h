@@ -12,7 +12,6 @@ namespace meshbound {
 /// A few triangles, for the nearest one to each of many points. Boxes tell which ones need not be looked at.
 class NearestTriangle {
  public:
-  void clear();
   void add(const std::array<Vec3, 3>& corners);
 
   /// The nearest triangle to p, the first of several. There must be one. Begins at the one that it found last, so
