@@ -15,6 +15,7 @@
 
 #include "bvh/build.h"
 #include "bvh/build_kernels.h"
+#include "numeric/no_index.h"
 #include "numeric/tasks.h"
 
 namespace meshbound {

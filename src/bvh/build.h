@@ -7,8 +7,6 @@
 
 #include "bvh/build_kernels.h"
 #include "bvh/bvh_data.h"
-#include "geometry/longest_edge.h"
-#include "numeric/no_index.h"
 
 namespace meshbound {
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "bvh/build.h"
+#include "geometry/longest_edge.h"
 #include "meshbound/error.h"
 #include "numeric/rounding.h"
 #include "numeric/tasks.h"

@@ -9,6 +9,7 @@
 
 #include "bvh/build.h"
 #include "geometry/position_table.h"
+#include "numeric/no_index.h"
 
 namespace meshbound {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "bvh/build.h"
 #include "bvh/build_kernels.h"
+#include "geometry/longest_edge.h"
 #include "numeric/no_index.h"
 #include "numeric/tasks.h"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "geometry/position_table.h"
 
+#include "numeric/no_index.h"
+
 namespace meshbound {
 
 PositionTable::PositionTable(std::span<const Vec3> vertices)

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "geometry/vec3.h"
-#include "numeric/no_index.h"
 
 namespace meshbound {
 

@@ -7,6 +7,7 @@
 #include "bvh/build.h"
 #include "bvh/oriented_nodes.h"
 #include "geometry/unit.h"
+#include "numeric/no_index.h"
 #include "penetration/contact.h"
 
 namespace meshbound {

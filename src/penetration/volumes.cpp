@@ -5,10 +5,10 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "meshbound/transform.h"
 #include "numeric/rounding.h"
 #include "penetration/flush.h"
 #include "penetration/parity.h"
+#include "penetration/triangulate.h"
 
 namespace meshbound {
 namespace {

@@ -11,7 +11,6 @@
 #include "penetration/face_borders.h"
 #include "penetration/pieces.h"
 #include "penetration/placed_pair.h"
-#include "penetration/triangulate.h"
 
 namespace meshbound {
 

@@ -14,6 +14,7 @@
 #include "numeric/tasks.h"
 #include "simplify/exceed_check.h"
 #include "simplify/minimax_step.h"
+#include "simplify/prove.h"
 #include "simplify/refine.h"
 #include "simplify/region_collapses.h"
 #include "simplify/repair.h"

@@ -6,7 +6,6 @@
 #include "meshbound/simplify.h"
 #include "simplify/change_prover.h"
 #include "simplify/propose.h"
-#include "simplify/prove.h"
 
 namespace meshbound {
 

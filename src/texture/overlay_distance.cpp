@@ -6,6 +6,7 @@
 #include "geometry/longest_edge.h"
 #include "geometry/magnitude.h"
 #include "numeric/rounding.h"
+#include "texture/exact_length.h"
 #include "texture/overlay.h"
 #include "texture/overlay_numbers.h"
 

@@ -7,7 +7,6 @@
 #include <cstddef>
 
 #include "texture/approximate.h"
-#include "texture/exact_length.h"
 #include "texture/overlay.h"
 
 namespace meshbound {

@@ -4,7 +4,6 @@
 #include "mesh/round_to_floats.h"
 #include "numeric/numbers_below.h"
 #include "simplify/decimation.h"
-#include "tiles/tile_cut.h"
 
 namespace meshbound {
 namespace {

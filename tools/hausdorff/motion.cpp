@@ -10,7 +10,6 @@
 
 #include "common/distance_text.h"
 #include "common/distinct_files.h"
-#include "common/length.h"
 #include "common/mesh_input.h"
 #include "common/output.h"
 #include "common/progress.h"

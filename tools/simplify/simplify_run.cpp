@@ -18,7 +18,6 @@
 #include "common/provenance.h"
 #include "common/signals.h"
 #include "common/standard_streams.h"
-#include "common/texture_length.h"
 #include "common/tile_workers.h"
 #include "decimation/decimation_run.h"
 #include "deviation/deviation_outputs.h"

@@ -10,6 +10,7 @@
 #include "distance/paper/group_bounds.h"
 #include "proof/cover_record.h"
 #include "proof/goal.h"
+#include "proof/triangle_corners.h"
 
 namespace meshbound {
 

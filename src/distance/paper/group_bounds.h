@@ -4,7 +4,6 @@
 #include <array>
 
 #include "bvh/nearest.h"
-#include "proof/triangle_corners.h"
 
 namespace meshbound {
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "distance/paper/group_bounds.h"
+#include "proof/triangle_corners.h"
 
 namespace meshbound {
 

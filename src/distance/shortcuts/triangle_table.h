@@ -6,6 +6,7 @@
 
 #include "geometry/position_table.h"
 #include "meshbound/triangle_mesh.h"
+#include "numeric/no_index.h"
 
 namespace meshbound {
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "numeric/no_index.h"
-#include "simplify/mesh/array_mesh.h"
 
 namespace meshbound {
 

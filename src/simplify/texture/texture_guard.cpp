@@ -8,7 +8,6 @@
 
 #include "geometry/point_triangle.h"
 #include "numeric/no_index.h"
-#include "simplify/mesh/face_box.h"
 #include "simplify/texture/nearest_with_coordinate.h"
 #include "simplify/texture/weighted_points.h"
 
