@@ -10,9 +10,9 @@
 #include <set>
 #include <utility>
 
+#include "geometry/boxes.h"
 #include "reference/small_meshes.h"
 #include "sheets.h"
-#include "simplify/mesh/face_box.h"
 #include "simplify/mesh/indexed_manifold.h"
 
 namespace meshbound {

@@ -15,6 +15,7 @@
 #include <string_view>
 
 #include "datasets/analytic_meshes.h"
+#include "geometry/boxes.h"
 #include "meshbound/distance.h"
 #include "numeric/no_index.h"
 #include "proof/edge_neighbours.h"
@@ -25,7 +26,6 @@
 #include "simplify/cover/slab_proof.h"
 #include "simplify/cover/slab_tree.h"
 #include "simplify/kernel/kernels.h"
-#include "simplify/mesh/face_box.h"
 #include "spatially_ordered.h"
 
 namespace meshbound {

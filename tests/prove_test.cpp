@@ -13,12 +13,12 @@
 
 #include "datasets/analytic_meshes.h"
 #include "decimation_states.h"
+#include "geometry/boxes.h"
 #include "meshbound/distance.h"
 #include "numeric/numbers_below.h"
 #include "reference/small_meshes.h"
 #include "simplify/change_prover.h"
 #include "simplify/cover/forward_cover.h"
-#include "simplify/mesh/face_box.h"
 #include "simplify/mesh/indexed_manifold.h"
 #include "simplify/propose.h"
 #include "simplify/repair.h"

@@ -13,7 +13,7 @@
 
 #include "datasets/analytic_meshes.h"
 #include "decimation_states.h"
-#include "simplify/mesh/face_box.h"
+#include "geometry/boxes.h"
 #include "simplify/propose.h"
 #include "simplify/region_collapses.h"
 #include "simplify/regions.h"

@@ -10,8 +10,8 @@
 
 #include "datasets/analytic_meshes.h"
 #include "decimation_states.h"
+#include "geometry/boxes.h"
 #include "numeric/no_index.h"
-#include "simplify/mesh/face_box.h"
 
 namespace meshbound {
 namespace samples_test {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <random>
 
+#include "geometry/boxes.h"
 #include "geometry/vec3.h"
 #include "reference/small_meshes.h"
-#include "simplify/mesh/face_box.h"
 
 namespace meshbound::test {
 

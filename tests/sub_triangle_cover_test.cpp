@@ -9,9 +9,9 @@
 #include <numbers>
 #include <numeric>
 
+#include "geometry/boxes.h"
 #include "numeric/no_index.h"
 #include "reference/small_meshes.h"
-#include "simplify/mesh/face_box.h"
 #include "simplify/mesh/indexed_manifold.h"
 
 namespace meshbound {

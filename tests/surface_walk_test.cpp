@@ -10,10 +10,10 @@
 #include <set>
 
 #include "decimation_states.h"
+#include "geometry/boxes.h"
 #include "reference/small_meshes.h"
 #include "sheets.h"
 #include "simplify/cover/mesh_soup.h"
-#include "simplify/mesh/face_box.h"
 #include "simplify/mesh/indexed_manifold.h"
 #include "simplify/star_samples.h"
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <random>
 
-#include "simplify/mesh/face_box.h"
+#include "geometry/boxes.h"
 #include "simplify/mesh/manifold_soup.h"
 #include "simplify/mesh/nearest_triangle.h"
 #include "simplify/propose.h"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "geometry/boxes.h"
 #include "geometry/eigen_vec3.h"
 #include "geometry/longest_edge.h"
 #include "mesh/mesh_arrays.h"
@@ -80,11 +81,7 @@ StandIns::StandIns(const MeshView& b, double tie, int threads) : tie_(tie) {
   boxes_.emplace(boxes);
 }
 
-Eigen::AlignedBox3d StandIns::box(std::uint32_t face) const {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p : corners(face)) box.extend(p);
-  return box;
-}
+Eigen::AlignedBox3d StandIns::box(std::uint32_t face) const { return box_of(corners(face)); }
 
 void StandIns::complete(const MeshView& a, std::size_t begin, std::span<NearStandIns> near) const {
   std::vector<std::size_t> unknown;

@@ -6,13 +6,13 @@
 #include <numeric>
 #include <utility>
 
+#include "geometry/boxes.h"
 #include "geometry/position_table.h"
 #include "numeric/no_index.h"
 #include "numeric/rounding.h"
 #include "numeric/tasks.h"
 #include "simplify/cover/forward_cover.h"
 #include "simplify/faults.h"
-#include "simplify/mesh/face_box.h"
 
 namespace meshbound {
 
@@ -342,9 +342,7 @@ double DecimationState::provable(double value) const {
 
 double DecimationState::limit_around(const std::array<Vec3, 3>& corners) const {
   if (!local) return limit;
-  Eigen::AlignedBox3d box;
-  for (const Vec3 p : corners) box.extend(Eigen::Vector3d(p.x, p.y, p.z));
-  return provable(local->sufficient_around(box, tolerance));
+  return provable(local->sufficient_around(box_of(corners), tolerance));
 }
 
 }  // namespace meshbound

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 
+#include "geometry/boxes.h"
 #include "numeric/no_index.h"
 #include "numeric/sort_unique.h"
-#include "simplify/mesh/face_box.h"
 #include "simplify/repair.h"
 
 namespace meshbound {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "geometry/boxes.h"
 #include "meshbound/bvh.h"
 #include "meshbound/error.h"
 #include "meshbound/proximity.h"
@@ -19,12 +20,6 @@ using InputCorners = std::array<Eigen::Vector3d, 3>;
 InputCorners corners_of(const MeshView& mesh, std::size_t triangle) {
   const Triangle t = mesh.triangle(triangle);
   return {mesh.vertex(t[0]), mesh.vertex(t[1]), mesh.vertex(t[2])};
-}
-
-Eigen::AlignedBox3d input_box(const InputCorners& corners) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p : corners) box.extend(p);
-  return box;
 }
 
 /// The triangles of a mesh by their corners, whatever order these are in.
@@ -69,7 +64,7 @@ FaceToleranceCheck check_face_tolerances(const MeshView& original, std::span<con
   std::uint32_t hint = 0;
   for (std::uint32_t t = 0; t < boxes.size(); ++t) {
     const InputCorners corners = corners_of(original, t);
-    boxes[t] = input_box(corners);
+    boxes[t] = box_of(corners);
     if (unchanged_in_simplified.contains(corners)) continue;
     const Verdict verdict = to_simplified.triangle_within(corners, std::min(tolerance, tolerances[t]), hint);
     if (verdict != Verdict::Within) return {verdict, t, std::nullopt};
@@ -80,7 +75,7 @@ FaceToleranceCheck check_face_tolerances(const MeshView& original, std::span<con
   for (std::uint32_t t = 0; t < simplified.triangle_count(); ++t) {
     const InputCorners corners = corners_of(simplified, t);
     if (unchanged_in_original.contains(corners)) continue;
-    const double limit = local.sufficient_around(input_box(corners), tolerance);
+    const double limit = local.sufficient_around(box_of(corners), tolerance);
     if (to_original.triangle_within(corners, limit, hint) != Verdict::Within)
       return {Verdict::Undecided, std::nullopt, t};
   }

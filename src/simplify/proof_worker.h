@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "geometry/boxes.h"
 #include "meshbound/proximity.h"
 #include "numeric/marked_ids.h"
 #include "numeric/no_index.h"
@@ -17,7 +18,6 @@
 #include "simplify/cover/reach_of_triangle.h"
 #include "simplify/cover/slab_proof.h"
 #include "simplify/cover/sub_triangle_cover.h"
-#include "simplify/mesh/face_box.h"
 #include "simplify/proof_workers.h"
 #include "simplify/regions.h"
 
@@ -132,8 +132,7 @@ class ProofWorkers::Worker {
     if (affected_.empty()) return true;
     Eigen::AlignedBox3d box;
     if (state_.local) {
-      for (const std::uint32_t t : affected_)
-        for (const std::uint32_t v : state_.triangles[t]) box.extend(to_eigen(state_.vertices[v]));
+      for (const std::uint32_t t : affected_) box.extend(box_of(state_.original(t)));
       for (const std::uint32_t face : changed)
         if (!state_.mesh.is_removed(face)) box.extend(box_of(state_.mesh.triangle(face)));
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/boxes.h"
 #include "geometry/position_table.h"
 #include "numeric/no_index.h"
 #include "simplify/faults.h"
@@ -158,10 +159,8 @@ bool Proposer::set_faces(Vec3 point) {
 double Proposer::limit_around() const {
   if (!state_.local) return state_.limit;
   Eigen::AlignedBox3d box;
-  for (const std::uint32_t face : star_.removed)
-    for (const Vec3 p : state_.mesh.triangle(face)) box.extend(Eigen::Vector3d(p.x, p.y, p.z));
-  for (const Corner c : star_.moved)
-    for (const Vec3 p : state_.mesh.triangle(c / 3)) box.extend(Eigen::Vector3d(p.x, p.y, p.z));
+  for (const std::uint32_t face : star_.removed) box.extend(box_of(state_.mesh.triangle(face)));
+  for (const Corner c : star_.moved) box.extend(box_of(state_.mesh.triangle(c / 3)));
   return state_.limit_in(box);
 }
 

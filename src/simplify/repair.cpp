@@ -7,9 +7,9 @@
 #include <queue>
 #include <span>
 
+#include "geometry/boxes.h"
 #include "numeric/no_index.h"
 #include "numeric/sort_unique.h"
-#include "simplify/mesh/face_box.h"
 #include "simplify/mesh/faces_of_originals.h"
 #include "simplify/normals/refuted_turns.h"
 #include "simplify/star_samples.h"

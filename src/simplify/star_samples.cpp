@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/boxes.h"
 #include "geometry/point_triangle.h"
 #include "numeric/no_index.h"
 #include "numeric/sort_keys.h"
-#include "simplify/mesh/face_box.h"
 
 namespace meshbound {
 namespace {

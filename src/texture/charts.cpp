@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/boxes.h"
 #include "numeric/simd.h"
 #include "texture/chart_edges.h"
 
@@ -93,16 +94,10 @@ ExactUnits common_units(const Charts& a, const Charts& b) {
 }
 
 Eigen::AlignedBox3d box_in_texture(const TexturedTriangle& triangle) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector2d& uv : triangle.coordinates) box.extend(Eigen::Vector3d(uv.x(), uv.y(), triangle.material));
-  return box;
+  return box_of(triangle.coordinates, triangle.material);
 }
 
-Eigen::AlignedBox3d place_of(const TexturedTriangle& triangle) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p : triangle.corners) box.extend(p);
-  return box;
-}
+Eigen::AlignedBox3d place_of(const TexturedTriangle& triangle) { return box_of(triangle.corners); }
 
 double distance_between(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
   const Eigen::Vector3d gap = (a.min() - b.max()).cwiseMax(b.min() - a.max()).cwiseMax(0.0);

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "geometry/boxes.h"
 #include "meshbound/error.h"
 #include "numeric/rounding.h"
 #include "numeric/tasks.h"
@@ -316,8 +317,7 @@ void check_input(const TexturedMesh& a, const TexturedMesh& b) {
 
 double diagonal_of(const TexturedMesh& mesh) {
   Eigen::AlignedBox3d box;
-  for (const TexturedTriangle& t : mesh.triangles)
-    for (const Eigen::Vector3d& p : t.corners) box.extend(p);
+  for (const TexturedTriangle& t : mesh.triangles) box.extend(box_of(t.corners));
   return box.isEmpty() ? 0 : box.diagonal().stableNorm();
 }
 

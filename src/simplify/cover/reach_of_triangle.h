@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "simplify/mesh/face_box.h"
+#include "geometry/boxes.h"
 
 namespace meshbound {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <tuple>
 
+#include "geometry/boxes.h"
 #include "numeric/sort_unique.h"
 #include "simplify/cover/reach_of_triangle.h"
-#include "simplify/mesh/face_box.h"
 
 namespace meshbound {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "simplify/mesh/face_box.h"
+#include "geometry/boxes.h"
 
 namespace meshbound {
 namespace {

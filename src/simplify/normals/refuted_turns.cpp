@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "simplify/mesh/face_box.h"
+#include "geometry/boxes.h"
 #include "simplify/mesh/faces_of_originals.h"
 
 namespace meshbound {

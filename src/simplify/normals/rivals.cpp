@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/boxes.h"
 #include "numeric/tasks.h"
-#include "simplify/mesh/face_box.h"
 #include "simplify/normals/sliced_triangles.h"
 
 namespace meshbound {

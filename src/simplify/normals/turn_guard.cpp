@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "geometry/boxes.h"
 #include "numeric/sort_unique.h"
-#include "simplify/mesh/face_box.h"
 
 namespace meshbound {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/boxes.h"
 #include "numeric/no_index.h"
 #include "simplify/texture/nearest_with_coordinate.h"
 #include "simplify/texture/weighted_points.h"
@@ -30,12 +31,6 @@ bool has_coordinates(const CornerCoordinates& corners) {
 /// Whether corners that have no area are not all equal.
 bool is_line(const CornerCoordinates& corners) {
   return has_coordinates(corners) && (corners[0] != corners[1] || corners[0] != corners[2]);
-}
-
-Eigen::AlignedBox3d box_of(const CornerCoordinates& corners, std::uint32_t material) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector2d& uv : corners) box.extend(Eigen::Vector3d(uv.x(), uv.y(), material));
-  return box;
 }
 
 }  // namespace
@@ -74,7 +69,7 @@ Atlas::Atlas(const std::vector<Vec3>& vertices, const std::vector<Triangle>& tri
     on_lines.resize(boxes.size());
     in_space.resize(boxes.size());
     on_lines[t] = box_of(coordinates_[t], material(t));
-    for (const Vec3 p : corners(t)) in_space[t].extend(Eigen::Vector3d(p.x, p.y, p.z));
+    in_space[t] = box_of(corners(t));
   }
   tree_.emplace(boxes);
   if (on_lines.empty()) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Boxes of triangles in the working frame, and distances from them.
+/// Boxes of triangles, and distances from them.
 #pragma once
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -14,6 +14,17 @@ namespace meshbound {
 inline Eigen::AlignedBox3d box_of(const std::array<Vec3, 3>& corners) {
   Eigen::AlignedBox3d box;
   for (const Vec3 p : corners) box.extend(to_eigen(p));
+  return box;
+}
+inline Eigen::AlignedBox3d box_of(const std::array<Eigen::Vector3d, 3>& corners) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : corners) box.extend(p);
+  return box;
+}
+/// The box of a triangle in the plane at this height.
+inline Eigen::AlignedBox3d box_of(const std::array<Eigen::Vector2d, 3>& corners, double height) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector2d& p : corners) box.extend(Eigen::Vector3d(p.x(), p.y(), height));
   return box;
 }
 inline Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box, double by) {
