@@ -396,7 +396,7 @@ TEST(PlaneKernel, IsTheSameOnEveryProcessor) {
   const auto point = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
   unsigned accurate = 0, held = 0;
   for (int round = 0; round < 1000; ++round) {
-    std::array<PlaneKernel::Corners, 4> faces;
+    std::array<TriangleCorners, 4> faces;
     for (auto& corners : faces) {
       corners = {point(), point(), point()};
       if (random() % 4 == 0) corners[2] = 0.5 * (corners[0] + corners[1]);

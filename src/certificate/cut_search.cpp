@@ -94,8 +94,8 @@ bool CutSearch::try_candidates(const Piece& piece) {
   return false;
 }
 
-CutSearch::Outcome CutSearch::prove(const std::array<Vec3, 3>& triangle, std::uint32_t& hint,
-                                    std::vector<ProofNode>& nodes, std::uint64_t max_steps) {
+CutSearch::Outcome CutSearch::prove(const TriangleCorners& triangle, std::uint32_t& hint, std::vector<ProofNode>& nodes,
+                                    std::uint64_t max_steps) {
   nodes_ = &nodes;
   steps_left_ = max_steps;
   too_far_ = false;

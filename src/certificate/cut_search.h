@@ -8,6 +8,7 @@
 #include "certificate/chord_cut.h"
 #include "certificate/parity_search.h"
 #include "certificate/proof_node.h"
+#include "geometry/triangle_corners.h"
 #include "proof/goal.h"
 #include "proof/piece.h"
 
@@ -31,7 +32,7 @@ class CutSearch {
 
   /// Appends the tree for a triangle given in B's working frame; on failure leaves `nodes` as they were. Starts with
   /// the triangle of B at `hint`, and leaves there the one that served last.
-  [[nodiscard]] Outcome prove(const std::array<Vec3, 3>& triangle, std::uint32_t& hint, std::vector<ProofNode>& nodes,
+  [[nodiscard]] Outcome prove(const TriangleCorners& triangle, std::uint32_t& hint, std::vector<ProofNode>& nodes,
                               std::uint64_t max_steps);
 
   /// `ParitySearch::work` of all triangles so far.
@@ -83,7 +84,7 @@ class CutSearch {
   ParitySearch parity_;
   QueryCounters counters_;
   std::vector<ProofNode>* nodes_ = nullptr;
-  std::array<Vec3, 3> triangle_;
+  TriangleCorners triangle_;
   std::uint64_t steps_left_ = 0;
   std::uint32_t last_ = 0;
   std::uint32_t nearest_to_middle_ = 0;

@@ -28,7 +28,7 @@ ParitySearch::ParitySearch(const Bvh::Data& target, const std::vector<std::array
       patch_(patch_limit) {}
 
 /// False where the triangle is too thin, or the tolerance too small, for doubles to tell.
-bool ParitySearch::set_view(const std::array<Vec3, 3>& triangle, const Piece& piece) {
+bool ParitySearch::set_view(const TriangleCorners& triangle, const Piece& piece) {
   const std::optional<FaceView> view = view_of(triangle);
   if (!view) return false;
   view_ = *view;
@@ -91,7 +91,7 @@ struct ParitySearch::Sight {
   }
 };
 
-bool ParitySearch::proves(const std::array<Vec3, 3>& triangle, const Piece& piece, std::uint32_t seed) {
+bool ParitySearch::proves(const TriangleCorners& triangle, const Piece& piece, std::uint32_t seed) {
   patch_.clear();
   const auto neighbour = [&](std::uint32_t t, std::size_t k) { return neighbours_[t][k]; };
   if (!set_view(triangle, piece) || !patch_.covers(neighbour, seed, Sight{*this, {}})) return false;

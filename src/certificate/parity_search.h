@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bvh/bvh_data.h"
+#include "geometry/triangle_corners.h"
 #include "proof/goal.h"
 #include "proof/parity_patch.h"
 #include "proof/piece.h"
@@ -23,7 +24,7 @@ class ParitySearch {
                double magnitude, std::size_t patch_limit);
 
   /// For a piece of `triangle`, with the triangle of B at `seed`, all in B's working frame. O(size of the patch).
-  [[nodiscard]] bool proves(const std::array<Vec3, 3>& triangle, const Piece& piece, std::uint32_t seed);
+  [[nodiscard]] bool proves(const TriangleCorners& triangle, const Piece& piece, std::uint32_t seed);
 
   /// Whether `proves` gave up last because the patch grew too large: parts of the piece may do.
   [[nodiscard]] bool patch_was_too_large() const { return patch_.is_full(); }
@@ -38,7 +39,7 @@ class ParitySearch {
   static constexpr std::uint64_t work_of_side = 4;  ///< of a triangle of a patch, for each corner of the piece
 
   struct Sight;
-  [[nodiscard]] bool set_view(const std::array<Vec3, 3>& triangle, const Piece& piece);
+  [[nodiscard]] bool set_view(const TriangleCorners& triangle, const Piece& piece);
   [[nodiscard]] bool set_window(const Piece& piece);
   [[nodiscard]] bool is_clear(const Projected& p, const Projected& q, double margin) const;
 

@@ -7,11 +7,12 @@
 
 #include "geometry/eigen_vec3.h"
 #include "geometry/point_triangle.h"
+#include "geometry/triangle_corners.h"
 #include "geometry/vec3.h"
 
 namespace meshbound {
 
-inline Eigen::AlignedBox3d box_of(const std::array<Vec3, 3>& corners) {
+inline Eigen::AlignedBox3d box_of(const TriangleCorners& corners) {
   Eigen::AlignedBox3d box;
   for (const Vec3 p : corners) box.extend(to_eigen(p));
   return box;
@@ -32,7 +33,7 @@ inline Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box, double by) {
 }
 
 /// Whether the box of a triangle and another one have a point in common.
-inline bool box_meets(const std::array<Vec3, 3>& corners, const Eigen::AlignedBox3d& box) {
+inline bool box_meets(const TriangleCorners& corners, const Eigen::AlignedBox3d& box) {
   const auto meets = [](double p, double q, double r, double min, double max) {
     return std::min(std::min(p, q), r) <= max && std::max(std::max(p, q), r) >= min;
   };
@@ -42,7 +43,7 @@ inline bool box_meets(const std::array<Vec3, 3>& corners, const Eigen::AlignedBo
 }
 
 /// As computed, for guides; a proof asks `PreparedTriangle`.
-inline double squared_distance(const std::array<Vec3, 3>& corners, Vec3 p) {
+inline double squared_distance(const TriangleCorners& corners, Vec3 p) {
   const auto& [a, b, c] = corners;
   return closest_on_triangle(CornerTriangle<double>{a, b - a, c - a}, p).squared_distance;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "geometry/point_triangle.h"
+#include "geometry/triangle_corners.h"
 #include "geometry/vec3.h"
 
 namespace meshbound {
@@ -16,7 +17,7 @@ inline std::uint32_t longest_edge(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 /// A triangle as `closest_on_triangle` needs it.
-inline CornerTriangle<double> longest_edge_first(const std::array<Vec3, 3>& corners) {
+inline CornerTriangle<double> longest_edge_first(const TriangleCorners& corners) {
   const std::uint32_t first = longest_edge(corners[0], corners[1], corners[2]);
   const Vec3& a = corners[first];
   return {a, corners[(first + 1) % 3] - a, corners[(first + 2) % 3] - a};

@@ -7,6 +7,7 @@
 
 #include "geometry/eigen_vec3.h"
 #include "geometry/magnitude.h"
+#include "geometry/triangle_corners.h"
 #include "meshbound/error.h"
 #include "numeric/rounding.h"
 
@@ -253,8 +254,8 @@ bool PlacedPair::is_beyond(std::uint32_t side, const Vec3& p, const Eigen::Align
 bool PlacedPair::goes_through(std::uint32_t side, const Triangle& triangle, std::uint32_t p, std::uint32_t q) {
   // The turns of the edge around those of the triangle, seen from p.
   const Vec3 from = local({1 - side, p}), edge = local({1 - side, q}) - from;
-  const std::array<Vec3, 3> corners{local({side, triangle[0]}) - from, local({side, triangle[1]}) - from,
-                                    local({side, triangle[2]}) - from};
+  const TriangleCorners corners{local({side, triangle[0]}) - from, local({side, triangle[1]}) - from,
+                                local({side, triangle[2]}) - from};
   const auto turn = [&](std::size_t k) {
     const std::size_t next = next_corner(k);
     if (const int sign = sign_beyond_error(dot(edge, cross(corners[k], corners[next]))); sign != 0) return sign;

@@ -21,6 +21,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/triangle_corners.h"
 #include "geometry/unit.h"
 #include "geometry/vec3.h"
 #include "numeric/marked_ids.h"
@@ -45,7 +46,7 @@ struct FaceView {
 };
 
 /// Nothing for a face without an accurate area: the axes would not have the length 1.
-[[nodiscard]] inline std::optional<FaceView> view_of(const std::array<Vec3, 3>& face) {
+[[nodiscard]] inline std::optional<FaceView> view_of(const TriangleCorners& face) {
   const Vec3 ab = face[1] - face[0], normal = cross(ab, face[2] - face[0]);
   const double area = length(normal);
   if (!(area > least_accurate_length)) return std::nullopt;

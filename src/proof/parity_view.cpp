@@ -14,7 +14,7 @@ constexpr double min_rim = 0x1p-44;
 
 }  // namespace
 
-std::optional<ParityView> ParityView::of(const std::array<Vec3, 3>& triangle, double tolerance, double magnitude) {
+std::optional<ParityView> ParityView::of(const TriangleCorners& triangle, double tolerance, double magnitude) {
   const double rim = rim_share * tolerance;
   if (!(rim > min_rim * magnitude)) return std::nullopt;
   const std::optional<FaceView> view = view_of(triangle);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "geometry/triangle_corners.h"
 #include "proof/parity_patch.h"
 
 namespace meshbound {
@@ -22,7 +23,7 @@ struct ParityView {
 
   /// Nothing where the triangle is too thin, or the tolerance too small for doubles at this magnitude, the largest
   /// coordinate of the soup.
-  [[nodiscard]] static std::optional<ParityView> of(const std::array<Vec3, 3>& triangle, double tolerance,
+  [[nodiscard]] static std::optional<ParityView> of(const TriangleCorners& triangle, double tolerance,
                                                     double magnitude);
 
   FaceView view;
@@ -42,7 +43,7 @@ struct Sight {
   mutable std::size_t edge_seen = 3;  ///< the edge whose passage was asked for last; 3: none since `look_at`
 
   void project(std::uint32_t t) {
-    const std::array<Vec3, 3> at = soup.corners(t);
+    const TriangleCorners at = soup.corners(t);
     for (std::size_t k = 0; k < 3; ++k) corners[k] = from.view.project(at[k]);
   }
   bool look_at(std::uint32_t t) {

@@ -35,7 +35,7 @@ constexpr std::uint32_t max_followers = 7;
 constexpr double max_cosine_of_crease = 0.94;
 
 /// A normal of any length.
-Vec3 normal_of(const std::array<Vec3, 3>& t) { return cross(t[1] - t[0], t[2] - t[0]); }
+Vec3 normal_of(const TriangleCorners& t) { return cross(t[1] - t[0], t[2] - t[0]); }
 
 /// Between two triangles with these normals that run along their common edge in opposite directions.
 bool is_crease(Vec3 m, Vec3 n) {
@@ -340,7 +340,7 @@ double DecimationState::provable(double value) const {
   return internal::proof_fault * (value * proven_share * (1 - 2 * CandidateFaces::plane_slack) - slack);
 }
 
-double DecimationState::limit_around(const std::array<Vec3, 3>& corners) const {
+double DecimationState::limit_around(const TriangleCorners& corners) const {
   if (!local) return limit;
   return provable(local->sufficient_around(box_of(corners), tolerance));
 }

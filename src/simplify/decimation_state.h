@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/triangle_corners.h"
 #include "meshbound/bvh.h"
 #include "meshbound/triangle_mesh.h"
 #include "numeric/no_index.h"
@@ -315,7 +316,7 @@ struct DecimationState {
   /// The largest computed distance that proves `value` in real arithmetic.
   [[nodiscard]] double provable(double value) const;
   /// The largest computed distance around a triangle that proves all tolerances there.
-  [[nodiscard]] double limit_around(const std::array<Vec3, 3>& corners) const;
+  [[nodiscard]] double limit_around(const TriangleCorners& corners) const;
   [[nodiscard]] double limit_in(const Eigen::AlignedBox3d& box) const {
     return local ? provable(local->sufficient_around(box, tolerance)) : limit;
   }
@@ -323,7 +324,7 @@ struct DecimationState {
   void keep(std::uint32_t original);
   [[nodiscard]] bool keeps(std::uint32_t original) const { return !is_kept.empty() && is_kept[original] != 0; }
   /// The corners of a triangle of the original.
-  [[nodiscard]] std::array<Vec3, 3> original(std::uint32_t t) const {
+  [[nodiscard]] TriangleCorners original(std::uint32_t t) const {
     return {vertices[triangles[t][0]], vertices[triangles[t][1]], vertices[triangles[t][2]]};
   }
   /// Whether a triangle of the original is a point or a segment because two of its corners are at one place.

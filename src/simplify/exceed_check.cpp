@@ -5,6 +5,7 @@
 #include <array>
 
 #include "geometry/boxes.h"
+#include "geometry/triangle_corners.h"
 #include "numeric/no_index.h"
 #include "numeric/sort_unique.h"
 #include "simplify/repair.h"
@@ -27,10 +28,8 @@ class Trial {
   Region& region_;
 };
 
-using Corners = std::array<Vec3, 3>;
-
 /// All triangles of a soup have vertices of their own.
-void add(TriangleMesh& soup, const Corners& corners) {
+void add(TriangleMesh& soup, const TriangleCorners& corners) {
   const auto first = static_cast<std::uint32_t>(soup.vertices.size());
   for (const Vec3 p : corners) soup.vertices.emplace_back(p.x, p.y, p.z);
   soup.triangles.push_back({first, first + 1, first + 2});
@@ -64,7 +63,7 @@ void ExceedCheck::make_boxes() {
 /// Adds all that is within `tolerance` of a point, as computed. Returns whether that is more than there was.
 bool ExceedCheck::add_what_is_near(Vec3 point, double tolerance, Holders& holders) {
   const Eigen::AlignedBox3d reach = grown(Eigen::AlignedBox3d(to_eigen(point)), tolerance);
-  const auto is_near = [&](const Corners& corners) {
+  const auto is_near = [&](const TriangleCorners& corners) {
     return box_meets(corners, reach) && squared_distance(corners, point) <= tolerance * tolerance;
   };
   const auto is_face_near = [&](std::uint32_t f) {

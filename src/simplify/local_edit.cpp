@@ -141,7 +141,7 @@ bool LocalEdit::gather_collapse(Corner edge) {
 
 void LocalEdit::set_faces() {
   faces_.clear();
-  for (const Corners& c : corners_) faces_.emplace_back(c[0] - origin_, c[1] - origin_, c[2] - origin_);
+  for (const TriangleCorners& c : corners_) faces_.emplace_back(c[0] - origin_, c[1] - origin_, c[2] - origin_);
   note_shared_sides(faces_);
 }
 
@@ -228,7 +228,7 @@ DeviationSums LocalEdit::deviation(double enough) {
   const Vec3 vertex = corners_[0][0];
   near_ = original_near(vertex, near_);
   add_point(vertex, near_, 1, sums);
-  const std::span<const Corners> edges = changing_edges();
+  const std::span<const TriangleCorners> edges = changing_edges();
   for (std::size_t i = 0; i < edges.size() && sums.sum < enough; ++i) {
     if (i == below_edges_.size()) below_edges_.push_back(below_edge(edges[i][0], edges[i][1], near_));
     add_edge(edges[i][0], edges[i][1], below_edges_[i], sums);
@@ -237,7 +237,7 @@ DeviationSums LocalEdit::deviation(double enough) {
 }
 
 /// The faces whose first edges change.
-std::span<const LocalEdit::Corners> LocalEdit::changing_edges() const {
+std::span<const TriangleCorners> LocalEdit::changing_edges() const {
   return std::span(corners_).first(kind_ == Edit::Kind::Flip ? 1 : corners_.size());
 }
 
@@ -246,8 +246,9 @@ bool LocalEdit::fits(double share) {
   samples_.compare(faces_);
   if (!samples_.hold(beside_, limit)) return false;
   const auto edges = changing_edges();
-  return std::all_of(edges.begin(), edges.end(),
-                     [&](const Corners& c) { return samples_.is_edge_near(c[0], c[1], near_, points_to_test, limit); });
+  return std::all_of(edges.begin(), edges.end(), [&](const TriangleCorners& c) {
+    return samples_.is_edge_near(c[0], c[1], near_, points_to_test, limit);
+  });
 }
 
 void LocalEdit::make() {
@@ -316,7 +317,7 @@ bool LocalEdit::group_fits(double share) {
   }
   for (const std::uint32_t face : group_) {
     if (mesh.is_removed(face)) continue;
-    const Corners corners = mesh.triangle(face);
+    const TriangleCorners corners = mesh.triangle(face);
     std::uint32_t near = state_.nearest[face];
     for (std::uint32_t k = 0; k < 3; ++k) {
       const Corner edge = 3 * face + k;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/triangle_corners.h"
 #include "meshbound/proximity.h"
 #include "numeric/marked_ids.h"
 #include "simplify/decimation_state.h"
@@ -22,8 +23,6 @@ namespace meshbound {
 /// could not prove it. One for each thread.
 class LocalEdit {
  public:
-  using Corners = std::array<Vec3, 3>;
-
   explicit LocalEdit(DecimationState& state);
   /// Selects the region in which changes are made. Both arguments must stay where they are until the last change.
   void enter(const Split& split, Region& region);
@@ -40,7 +39,7 @@ class LocalEdit {
   /// Gathers and places a flip. False if it is not possible or would not lower the deviation.
   [[nodiscard]] bool flip_lowers_deviation(Corner edge);
   /// The vertex that moves comes first in each of these faces.
-  [[nodiscard]] std::span<const Corners> faces() const { return corners_; }
+  [[nodiscard]] std::span<const TriangleCorners> faces() const { return corners_; }
   /// The position of the moving vertex before the change.
   [[nodiscard]] Vec3 origin() const { return origin_; }
 
@@ -86,7 +85,7 @@ class LocalEdit {
   [[nodiscard]] BelowEdge below_edge(Vec3 vertex, Vec3 end, std::uint32_t near);
   void add_edge(Vec3 vertex, Vec3 end, const BelowEdge& below, DeviationSums& sums);
   [[nodiscard]] std::uint32_t original_near(Vec3 p, std::uint32_t hint);
-  [[nodiscard]] std::span<const Corners> changing_edges() const;
+  [[nodiscard]] std::span<const TriangleCorners> changing_edges() const;
   [[nodiscard]] bool owns(std::uint32_t vertex) const { return split_->owns(region_->id, vertex); }
   /// The face of this corner, whose vertex moves, as it is before the change.
   [[nodiscard]] GuardedFace guarded_face(Corner moved) const {
@@ -112,7 +111,7 @@ class LocalEdit {
   Vec3 origin_;
   std::vector<std::uint32_t> taken_, numbers_, beside_;  ///< faces that change, those of them that stay, and others
   std::vector<GuardedFace> before_;                      ///< faces that stay
-  std::vector<Corners> corners_;                         ///< of the faces that stay, as they would be
+  std::vector<TriangleCorners> corners_;                 ///< of the faces that stay, as they would be
   std::vector<SampleFace> faces_;                        ///< `corners_` relative to the origin
   std::vector<BelowEdge> below_edges_;                   ///< of the edges that change, as far as they are known
   std::uint32_t near_ = 0;                               ///< an original near the vertex that moves

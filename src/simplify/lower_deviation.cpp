@@ -3,6 +3,8 @@
 
 #include <Eigen/Dense>
 
+#include "geometry/triangle_corners.h"
+
 namespace meshbound {
 namespace {
 
@@ -12,9 +14,9 @@ constexpr double shorter_step = 0.35;
 /// Longest step, as a share of the mean length of the edges.
 constexpr double max_step = 0.5;
 
-double mean_edge(std::span<const LocalEdit::Corners> faces) {
+double mean_edge(std::span<const TriangleCorners> faces) {
   double sum = 0;
-  for (const LocalEdit::Corners& c : faces) sum += length(c[1] - c[0]);
+  for (const TriangleCorners& c : faces) sum += length(c[1] - c[0]);
   return sum / static_cast<double>(faces.size());
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/boxes.h"
+#include "geometry/triangle_corners.h"
 #include "meshbound/proximity.h"
 #include "numeric/marked_ids.h"
 #include "numeric/no_index.h"
@@ -26,8 +27,6 @@ namespace meshbound {
 /// The scratch memory and the data with which one thread proves single triangles and faces.
 class ProofWorkers::Worker {
  public:
-  using Corners = std::array<Vec3, 3>;
-
   explicit Worker(const DecimationState& state)
       : state_(state),
         cover_(state.vertices, state.triangles),
@@ -48,7 +47,7 @@ class ProofWorkers::Worker {
   /// Faces that cover an original triangle together; none if no cover was found. Valid until the next call.
   std::span<const std::uint32_t> cover(std::uint32_t t) {
     drafted_.clear();
-    const Corners corners = state_.original(t);
+    const TriangleCorners corners = state_.original(t);
     const double limit = state_.limit_around(corners);
     if (!(limit > 0)) return {};
     std::array<std::uint32_t, 3> at{};
@@ -60,7 +59,7 @@ class ProofWorkers::Worker {
     const auto known = std::find_if(at.begin(), at.end(), [](std::uint32_t f) { return f != no_index; });
     const auto is_usable = [](std::uint32_t) { return true; };
     if (known != at.end()) {
-      const std::uint32_t under = face_under(middle_of(corners), *known);
+      const std::uint32_t under = face_under(centroid(corners), *known);
       if (holds(under, corners, limit)) return draft(under);
       loops_.set_tolerance(limit, state_.magnitude);
       const auto start_at = [&](std::uint32_t from, std::uint32_t) {
@@ -77,7 +76,7 @@ class ProofWorkers::Worker {
   /// As `cover`, with faces found by boxes where the samples do not know which faces are near.
   std::span<const std::uint32_t> cover_anywhere(std::uint32_t t, const FaceBoxes& boxes) {
     drafted_.clear();
-    const Corners corners = state_.original(t);
+    const TriangleCorners corners = state_.original(t);
     const double limit = state_.limit_around(corners);
     if (!(limit > 0)) return {};
     found_.clear();
@@ -85,7 +84,7 @@ class ProofWorkers::Worker {
     boxes.find(reach.box(), found_);
     std::erase_if(found_,
                   [&](std::uint32_t f) { return state_.mesh.is_removed(f) || !reach.meets(state_.mesh.triangle(f)); });
-    if (!sub_triangles_.is_near_one_of(found_, middle_of(corners), limit)) return {};
+    if (!sub_triangles_.is_near_one_of(found_, centroid(corners), limit)) return {};
     const auto one =
         std::find_if(found_.begin(), found_.end(), [&](std::uint32_t f) { return holds(f, corners, limit); });
     if (one != found_.end()) return draft(*one);
@@ -95,7 +94,7 @@ class ProofWorkers::Worker {
 
   /// Whether a face is near the original; `near` is an original triangle to start with, and the one found.
   bool is_near(std::uint32_t face, std::uint32_t& near) {
-    const Corners corners = state_.mesh.triangle(face);
+    const TriangleCorners corners = state_.mesh.triangle(face);
     for (const Vec3 p : corners)
       if (!(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= state_.magnitude + state_.tolerance))
         return false;
@@ -106,8 +105,8 @@ class ProofWorkers::Worker {
     open_parts_.clear();
     original_patches_.cover(
         original_, {corners, 0}, limit, state_.magnitude,
-        [&](const Corners& part) {
-          (void)proximity_.upper_distance(to_eigen(middle_of(part)), near, limit);
+        [&](const TriangleCorners& part) {
+          (void)proximity_.upper_distance(to_eigen(centroid(part)), near, limit);
           return near;
         },
         is_large ? max_strips_of_large : 1, open_parts_);
@@ -264,7 +263,7 @@ class ProofWorkers::Worker {
     MeshSoup all;
     const Usable& is_usable;
 
-    [[nodiscard]] Corners corners(std::uint32_t face) const { return all.corners(face); }
+    [[nodiscard]] TriangleCorners corners(std::uint32_t face) const { return all.corners(face); }
     [[nodiscard]] std::uint32_t neighbour(std::uint32_t face, std::size_t k) const {
       const std::uint32_t across = all.neighbour(face, k);
       return across == no_index || !is_usable(across) ? no_index : across;
@@ -272,7 +271,7 @@ class ProofWorkers::Worker {
   };
   /// Covers a large original by patches of usable faces, and by the candidates where patches end.
   template <class Usable>
-  bool cover_by_patches(const Corners& corners, double limit, const Usable& is_usable) {
+  bool cover_by_patches(const TriangleCorners& corners, double limit, const Usable& is_usable) {
     drafted_.clear();
     open_parts_.clear();
     patches_.cover(UsableFaces<Usable>{{state_.mesh}, is_usable}, {corners, 0}, limit, state_.magnitude, found_,
@@ -310,7 +309,7 @@ class ProofWorkers::Worker {
   }
   /// Covers an original by faces near those found. `drafted_`, empty before, are then those that do so.
   template <class Usable>
-  void cover_by_found(std::uint32_t t, const Corners& corners, double limit, const Usable& is_usable) {
+  void cover_by_found(std::uint32_t t, const TriangleCorners& corners, double limit, const Usable& is_usable) {
     if (found_.size() <= CandidateFaces::capacity) {
       if (cover_by_few(t, limit)) return;
       if (!cover_.lost_point() && cover_by_patches(corners, limit, is_usable)) return;
@@ -357,7 +356,7 @@ class ProofWorkers::Worker {
   /// theirs.
   [[nodiscard]] std::uint32_t face_under(Vec3 p, std::uint32_t face) const {
     for (int steps = 0; steps < max_steps; ++steps) {
-      const Corners c = state_.mesh.triangle(face);
+      const TriangleCorners c = state_.mesh.triangle(face);
       const Vec3 normal = cross(c[1] - c[0], c[2] - c[0]);
       std::uint32_t next = no_index;
       double furthest = 0;
@@ -378,7 +377,7 @@ class ProofWorkers::Worker {
 
   /// A face beside one of these that holds all of an original: around a hub most faces are far from it. `no_index` if
   /// there is none.
-  std::uint32_t across(const std::array<std::uint32_t, 3>& faces, const Corners& corners, double limit) {
+  std::uint32_t across(const std::array<std::uint32_t, 3>& faces, const TriangleCorners& corners, double limit) {
     for (const std::uint32_t f : faces) {
       if (f == no_index) continue;
       for (Corner c = 3 * f; c < 3 * f + 3; ++c) {
@@ -390,7 +389,7 @@ class ProofWorkers::Worker {
   }
 
   /// Like `CandidateFaces::holds`, for faces that are asked for once.
-  bool holds(std::uint32_t face, const Corners& points, double limit) {
+  bool holds(std::uint32_t face, const TriangleCorners& points, double limit) {
     const PreparedTriangle& triangle = prepared_.triangle(face);
     return std::all_of(points.begin(), points.end(), [&](Vec3 p) { return triangle.is_within(p, limit * limit); });
   }
@@ -400,7 +399,7 @@ class ProofWorkers::Worker {
   template <class Owned>
   bool cover_among(std::uint32_t t, std::span<const std::uint32_t> changed, const Owned& owned) {
     drafted_.clear();
-    const Corners corners = state_.original(t);
+    const TriangleCorners corners = state_.original(t);
     const double limit = state_.limit_around(corners);
     if (!(limit > 0)) return false;
     for (const std::uint32_t f : state_.cover.faces_of(t)) {
@@ -456,8 +455,8 @@ class ProofWorkers::Worker {
   }
 
   /// Whether clusters as large as that of an original near a face fit into it: else it has no inner ones.
-  [[nodiscard]] bool has_room_for_clusters(const Corners& face, std::uint32_t near) const {
-    const auto twice_area = [](const Corners& c) { return length(cross(c[1] - c[0], c[2] - c[0])); };
+  [[nodiscard]] bool has_room_for_clusters(const TriangleCorners& face, std::uint32_t near) const {
+    const auto twice_area = [](const TriangleCorners& c) { return length(cross(c[1] - c[0], c[2] - c[0])); };
     const double perimeter = length(face[1] - face[0]) + length(face[2] - face[1]) + length(face[0] - face[2]);
     const double incircle = twice_area(face) / perimeter;
     return 2 * incircle * incircle >= min_incircle * min_incircle * twice_area(original_.corners(near));
@@ -504,8 +503,6 @@ class ProofWorkers::Worker {
 
   /// Faces that are looked at around an original triangle.
   static constexpr std::size_t max_found = 4096;
-
-  static Vec3 middle_of(const Corners& c) { return (1.0 / 3) * (c[0] + c[1] + c[2]); }
 };
 
 }  // namespace meshbound

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/triangle_corners.h"
 #include "numeric/first_error.h"
 #include "numeric/tasks.h"
 #include "simplify/lower_deviation.h"
@@ -152,7 +153,7 @@ void Refiner::shake(std::uint32_t vertex) {
   const double part = 1 / static_cast<double>(degree);
   Vec3 middle{0, 0, 0}, normal{0, 0, 0};
   double mean_edge = 0;
-  for (const LocalEdit::Corners& c : edit_.faces()) {
+  for (const TriangleCorners& c : edit_.faces()) {
     middle = middle + part * c[1];
     normal = normal + cross(c[1] - p, c[2] - p);
     mean_edge += part * length(c[1] - p);

@@ -5,6 +5,7 @@
 
 #include "geometry/longest_edge.h"
 #include "geometry/magnitude.h"
+#include "geometry/triangle_corners.h"
 #include "numeric/rounding.h"
 #include "texture/exact_length.h"
 #include "texture/overlay.h"
@@ -93,8 +94,8 @@ Bounds distance_to_segment(const NearPoint& p, const NearPoint& from, const Near
   return {lower > 0 ? next_down(lower) : 0, there.upper};
 }
 
-std::array<Vec3, 3> as_vectors(const std::array<Eigen::Vector3d, 3>& corners) {
-  std::array<Vec3, 3> c;
+TriangleCorners as_vectors(const std::array<Eigen::Vector3d, 3>& corners) {
+  TriangleCorners c;
   for (std::size_t k = 0; k < 3; ++k) c[k] = {corners[k].x(), corners[k].y(), corners[k].z()};
   return c;
 }
@@ -111,7 +112,7 @@ constexpr double max_plain_magnitude = 0x1p400;
 /// The primal and the dual bound of numeric/rounding.h: the triangle lies beyond the plane, across the way to its
 /// closest point, through its nearest corner.
 Bounds distance_to_triangle(const NearPoint& p, const std::array<Eigen::Vector3d, 3>& corners) {
-  const std::array<Vec3, 3> c = as_vectors(corners);
+  const TriangleCorners c = as_vectors(corners);
   const Vec3 point{p[0].value, p[1].value, p[2].value};
   double magnitude = largest_magnitude_of(point);
   for (const Vec3& corner : c) magnitude = std::max(magnitude, largest_magnitude_of(corner));

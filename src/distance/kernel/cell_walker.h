@@ -24,10 +24,10 @@
 
 #include "distance/kernel/choice.h"
 #include "distance/kernel/parity_cover.h"
+#include "geometry/triangle_corners.h"
 #include "proof/cell_planes.h"
 #include "proof/piece.h"
 #include "proof/proven_bounds.h"
-#include "proof/triangle_corners.h"
 
 namespace meshbound {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bvh/bvh_data.h"
+#include "geometry/triangle_corners.h"
 #include "geometry/vec3.h"
-#include "proof/triangle_corners.h"
 
 namespace meshbound {
 

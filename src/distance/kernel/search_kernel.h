@@ -8,9 +8,9 @@
 #include "bvh/bvh_data.h"
 #include "bvh/nearest.h"
 #include "distance/paper/group_bounds.h"
+#include "geometry/triangle_corners.h"
 #include "proof/cover_record.h"
 #include "proof/goal.h"
-#include "proof/triangle_corners.h"
 
 namespace meshbound {
 

@@ -15,7 +15,7 @@
 #include <span>
 
 #include "bvh/bvh_data.h"
-#include "proof/triangle_corners.h"
+#include "geometry/triangle_corners.h"
 
 namespace meshbound {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "distance/paper/group_bounds.h"
-#include "proof/triangle_corners.h"
+#include "geometry/triangle_corners.h"
 
 namespace meshbound {
 

@@ -13,7 +13,7 @@ void CandidateFaces::clear(double tolerance) {
   size_ = 0;
 }
 
-void CandidateFaces::add(const std::array<Vec3, 3>& corners) {
+void CandidateFaces::add(const TriangleCorners& corners) {
   const int k = size_++;
   corners_[k] = corners;
   prepared_ &= ~(FaceMask{1} << k);

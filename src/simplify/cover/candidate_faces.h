@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "geometry/prepared_triangle.h"
+#include "geometry/triangle_corners.h"
 #include "simplify/kernel/kernels.h"
 
 namespace meshbound {
@@ -31,7 +32,7 @@ class CandidateFaces {
 
   void clear(double tolerance);
   /// `size()` must be less than `capacity`.
-  void add(const std::array<Vec3, 3>& corners);
+  void add(const TriangleCorners& corners);
   [[nodiscard]] int size() const { return size_; }
 
   /// The members of `among` that are within the tolerance of p.
@@ -80,7 +81,7 @@ class CandidateFaces {
   int size_ = 0;
   std::array<PlaneBlock, blocks> blocks_{};
   std::uint32_t missing_ = 0;  ///< bit for each block whose planes are not those of its triangles yet
-  std::array<std::array<Vec3, 3>, capacity> corners_{};
+  std::array<TriangleCorners, capacity> corners_{};
   std::array<PreparedTriangle, capacity> triangles_{};
   FaceMask prepared_ = 0;  ///< those whose triangle is that of the corners
   FaceMask flat_ = 0;      ///< those whose planes are accurate

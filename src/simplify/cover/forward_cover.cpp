@@ -40,7 +40,7 @@ void ForwardCover::begin(double tolerance) {
   round_ = 1;
 }
 
-void ForwardCover::add(const std::array<Vec3, 3>& corners, std::uint32_t face) {
+void ForwardCover::add(const TriangleCorners& corners, std::uint32_t face) {
   if (size() == CandidateFaces::capacity) return;
   faces_[static_cast<std::size_t>(size())] = face;
   candidates_.add(corners);
@@ -112,7 +112,7 @@ FaceMask ForwardCover::cover_in_pieces(std::uint32_t triangle, FaceMask allowed,
   return pieces != 0 || lost_point_ ? pieces : cover_in_pieces(whole, allowed, Asked::All, cuts);
 }
 
-std::optional<FaceMask> ForwardCover::cover_sub_triangle(const std::array<Vec3, 3>& corners, int depth) {
+std::optional<FaceMask> ForwardCover::cover_sub_triangle(const TriangleCorners& corners, int depth) {
   const FaceMask all = first(size());
   Piece whole;
   whole.depth = depth;

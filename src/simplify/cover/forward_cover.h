@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/triangle_corners.h"
 #include "meshbound/triangle_mesh.h"
 #include "simplify/cover/candidate_faces.h"
 
@@ -34,7 +35,7 @@ class ForwardCover {
   /// Begins a new set of candidates; masks of earlier ones are forgotten.
   void begin(double tolerance);
   /// Adds a candidate. There are 64 at most; further ones are left out.
-  void add(const std::array<Vec3, 3>& corners, std::uint32_t face);
+  void add(const TriangleCorners& corners, std::uint32_t face);
   [[nodiscard]] int size() const { return candidates_.size(); }
   [[nodiscard]] std::uint32_t face(int k) const { return faces_[static_cast<std::size_t>(k)]; }
   /// Candidates [0, size).
@@ -55,7 +56,7 @@ class ForwardCover {
   [[nodiscard]] FaceMask cover_thoroughly(std::uint32_t triangle, FaceMask allowed);
   /// Mask of the candidates that together cover a sub-triangle, 0 when they do not. None if no candidate holds
   /// some corner. `depth`: cuts that made the sub-triangle.
-  [[nodiscard]] std::optional<FaceMask> cover_sub_triangle(const std::array<Vec3, 3>& corners, int depth);
+  [[nodiscard]] std::optional<FaceMask> cover_sub_triangle(const TriangleCorners& corners, int depth);
   /// Whether some candidate of `allowed` is within the tolerance of each corner.
   [[nodiscard]] bool are_corners_near(std::uint32_t triangle, FaceMask allowed);
   /// The candidates of `allowed` that are within the tolerance of a vertex.
@@ -65,7 +66,7 @@ class ForwardCover {
 
  private:
   struct Piece {
-    std::array<Vec3, 3> corners;
+    TriangleCorners corners;
     std::array<FaceMask, 3> masks;
     int depth = 0;  ///< cuts that made it
   };

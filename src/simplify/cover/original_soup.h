@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/triangle_corners.h"
 #include "geometry/vec3.h"
 #include "meshbound/triangle_mesh.h"
 #include "proof/edge_neighbours.h"
@@ -16,7 +17,7 @@ struct OriginalSoup {
   const std::vector<Triangle>& triangles;
   const std::vector<TriangleNeighbours>& neighbours;
 
-  [[nodiscard]] std::array<Vec3, 3> corners(std::uint32_t t) const {
+  [[nodiscard]] TriangleCorners corners(std::uint32_t t) const {
     return {vertices[triangles[t][0]], vertices[triangles[t][1]], vertices[triangles[t][2]]};
   }
   [[nodiscard]] std::uint32_t neighbour(std::uint32_t t, std::size_t k) const { return neighbours[t][k]; }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "geometry/triangle_corners.h"
 #include "proof/parity_view.h"
 
 namespace meshbound {
@@ -22,14 +23,14 @@ class ParityProof {
   /// True proves that `triangle` lies within `tolerance` of the soup (but for CandidateFaces::rounding_slack of the
   /// largest coordinate); false says nothing. P grows from `seed` over the edges that project onto the triangle.
   template <class Soup>
-  [[nodiscard]] bool covers(const Soup& soup, const std::array<Vec3, 3>& triangle, double tolerance, double magnitude,
+  [[nodiscard]] bool covers(const Soup& soup, const TriangleCorners& triangle, double tolerance, double magnitude,
                             std::uint32_t seed) {
     return covers_from(soup, triangle, tolerance, magnitude, [seed](const Sight<Soup>&) { return seed; });
   }
   /// As `covers`; P grows from the first of `likely` that lies above or below a point in the middle of the triangle,
   /// within the tolerance where it does.
   template <class Soup>
-  [[nodiscard]] bool covers_from_first(const Soup& soup, const std::array<Vec3, 3>& triangle, double tolerance,
+  [[nodiscard]] bool covers_from_first(const Soup& soup, const TriangleCorners& triangle, double tolerance,
                                        double magnitude, std::span<const std::uint32_t> likely) {
     return covers_from(soup, triangle, tolerance, magnitude, [likely](Sight<Soup>& sight) {
       const auto seed = std::find_if(likely.begin(), likely.end(), [&](std::uint32_t t) {
@@ -52,8 +53,8 @@ class ParityProof {
 
  private:
   template <class Soup, class Seed>
-  [[nodiscard]] bool covers_from(const Soup& soup, const std::array<Vec3, 3>& triangle, double tolerance,
-                                 double magnitude, const Seed& find_seed) {
+  [[nodiscard]] bool covers_from(const Soup& soup, const TriangleCorners& triangle, double tolerance, double magnitude,
+                                 const Seed& find_seed) {
     obstacle_ = {};
     const std::optional<ParityView> view = ParityView::of(triangle, tolerance, magnitude);
     if (!view) return false;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/triangle_corners.h"
 #include "simplify/cover/parity_proof.h"
 
 namespace meshbound {
@@ -19,7 +20,7 @@ class PatchCover {
  public:
   /// A part of an original triangle.
   struct Part {
-    std::array<Vec3, 3> corners;
+    TriangleCorners corners;
     int cuts = 0;  ///< on the way down to it
   };
 
@@ -29,7 +30,7 @@ class PatchCover {
   template <class Soup>
   void cover(const Soup& mesh, const Part& whole, double tolerance, double magnitude,
              std::span<const std::uint32_t> likely, std::vector<std::uint32_t>& faces, std::vector<Part>& open) {
-    const auto covers = [&](const std::array<Vec3, 3>& corners) {
+    const auto covers = [&](const TriangleCorners& corners) {
       return parity_.covers_from_first(mesh, corners, tolerance, magnitude, likely);
     };
     if (cut_strips(whole, tolerance, covers, max_tries, open))
@@ -40,7 +41,7 @@ class PatchCover {
   template <class Soup, class SeedNear>
   void cover(const Soup& mesh, const Part& whole, double tolerance, double magnitude, const SeedNear& seed_near,
              int max_strips, std::vector<Part>& open) {
-    const auto covers = [&](const std::array<Vec3, 3>& corners) {
+    const auto covers = [&](const TriangleCorners& corners) {
       return parity_.covers(mesh, corners, tolerance, magnitude, seed_near(corners));
     };
     const std::size_t before = open.size();

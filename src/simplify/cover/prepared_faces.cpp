@@ -5,7 +5,7 @@
 
 namespace meshbound {
 
-FacePlanes FacePlanes::of(const std::array<Vec3, 3>& corners, double tolerance, const PlaneKernel& kernel) {
+FacePlanes FacePlanes::of(const TriangleCorners& corners, double tolerance, const PlaneKernel& kernel) {
   // The kernel makes those of four triangles.
   const std::array four{corners, corners, corners, corners};
   PlaneBlock block;

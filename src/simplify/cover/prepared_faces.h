@@ -8,6 +8,7 @@
 
 #include "geometry/position_table.h"
 #include "geometry/prepared_triangle.h"
+#include "geometry/triangle_corners.h"
 #include "numeric/no_index.h"
 #include "simplify/kernel/kernels.h"
 
@@ -20,7 +21,7 @@ struct FacePlanes {
   /// Whether they are displaced by less than `CandidateFaces::plane_slack` tolerances near the face; else they are 0.
   bool are_accurate = false;
 
-  [[nodiscard]] static FacePlanes of(const std::array<Vec3, 3>& corners, double tolerance, const PlaneKernel& kernel);
+  [[nodiscard]] static FacePlanes of(const TriangleCorners& corners, double tolerance, const PlaneKernel& kernel);
   /// How far a point is above the face, and beyond each side of it.
   [[nodiscard]] Values at(Vec3 p) const {
     Values values;
@@ -36,8 +37,6 @@ struct FacePlanes {
 template <class Soup>
 class PreparedFaces {
  public:
-  using Corners = std::array<Vec3, 3>;
-
   /// More than the faces around a star, so that few take the place of others.
   static constexpr std::size_t few = 128;
 
@@ -69,7 +68,7 @@ class PreparedFaces {
   struct Entry {
     std::uint32_t face = no_index;
     std::uint32_t round = 0;  ///< of `forget` when the corners were those of the face
-    Corners corners{};
+    TriangleCorners corners{};
     bool has_triangle = false;
     double tolerance_of_planes = -1;  ///< negative: there are none
     PreparedTriangle triangle;
@@ -82,7 +81,7 @@ class PreparedFaces {
   }
   /// What was made stays where the face is as it was.
   void renew(Entry& entry, std::uint32_t face) const {
-    const Corners corners = soup_.corners(face);
+    const TriangleCorners corners = soup_.corners(face);
     if (entry.face != face || !std::equal(corners.begin(), corners.end(), entry.corners.begin(), same_position)) {
       entry.face = face, entry.corners = corners;
       entry.has_triangle = false;

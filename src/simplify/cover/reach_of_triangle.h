@@ -4,6 +4,7 @@
 #include <array>
 
 #include "geometry/boxes.h"
+#include "geometry/triangle_corners.h"
 
 namespace meshbound {
 
@@ -11,7 +12,7 @@ namespace meshbound {
 /// box alone is full of others where the triangle is a needle askew to the axes. As computed, for guides.
 class ReachOfTriangle {
  public:
-  ReachOfTriangle(const std::array<Vec3, 3>& corners, double distance) : box_(grown(box_of(corners), distance)) {
+  ReachOfTriangle(const TriangleCorners& corners, double distance) : box_(grown(box_of(corners), distance)) {
     const auto& [a, b, c] = corners;
     Vec3 longest = b - a;
     for (const Vec3 edge : {c - b, a - c})
@@ -23,7 +24,7 @@ class ReachOfTriangle {
     max_ = max + beyond;
   }
   /// Whether a triangle may have a point in it.
-  [[nodiscard]] bool meets(const std::array<Vec3, 3>& corners) const {
+  [[nodiscard]] bool meets(const TriangleCorners& corners) const {
     const auto& [a, b, c] = corners;
     const double p = dot(across_, a), q = dot(across_, b), r = dot(across_, c);
     return std::min({p, q, r}) <= max_ && std::max({p, q, r}) >= min_ && box_meets(corners, box_);

@@ -72,7 +72,7 @@ class SlabProof::Patch {
   std::uint32_t over_middle_ = no_index;
 };
 
-bool SlabProof::covers(const std::array<Vec3, 3>& triangle, double tolerance, double magnitude,
+bool SlabProof::covers(const TriangleCorners& triangle, double tolerance, double magnitude,
                        std::uint32_t& over_middle) const {
   const std::optional<ParityView> view = ParityView::of(triangle, tolerance, magnitude);
   if (!view) return false;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "geometry/triangle_corners.h"
 #include "proof/parity_view.h"
 #include "simplify/cover/original_clusters.h"
 #include "simplify/cover/original_soup.h"
@@ -31,7 +32,7 @@ class SlabProof {
   /// True proves that `triangle` lies within `tolerance` of the original (but for CandidateFaces::rounding_slack of the
   /// largest coordinate), and sets `over_middle` to an original above or below the middle of T'. False says nothing:
   /// where two sheets lie in the prism, a patch that grows may find the one.
-  [[nodiscard]] bool covers(const std::array<Vec3, 3>& triangle, double tolerance, double magnitude,
+  [[nodiscard]] bool covers(const TriangleCorners& triangle, double tolerance, double magnitude,
                             std::uint32_t& over_middle) const;
 
  private:

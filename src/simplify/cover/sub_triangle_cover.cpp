@@ -23,11 +23,9 @@ constexpr std::size_t max_sub_triangles = 4096;
 /// of 7.9 s.
 constexpr std::size_t max_sub_triangles_among_same = 256;
 
-Vec3 middle_of(const SubTriangleCover::Corners& c) { return (1.0 / 3) * (c[0] + c[1] + c[2]); }
-
 }  // namespace
 
-bool SubTriangleCover::covers(const Corners& corners, std::span<const std::uint32_t> around, double limit,
+bool SubTriangleCover::covers(const TriangleCorners& corners, std::span<const std::uint32_t> around, double limit,
                               std::vector<std::uint32_t>& covering) {
   covering.clear();
   around_.clear();
@@ -42,7 +40,7 @@ bool SubTriangleCover::covers_all(double limit, std::vector<std::uint32_t>& cove
   for (std::size_t i = 0, count = 1; i < sub_triangles_.size(); ++i) {
     choose_around(sub_triangles_[i], limit);
     const SubTriangle sub_triangle = sub_triangles_[i];
-    if (!is_near_one_of(chosen_, middle_of(sub_triangle.corners), limit)) return false;
+    if (!is_near_one_of(chosen_, centroid(sub_triangle.corners), limit)) return false;
     const bool has_all = choose_candidates(sub_triangle.corners, limit);
     cover_.begin(limit);
     for (const std::uint32_t f : chosen_) cover_.add(mesh_.triangle(f), f);
@@ -92,14 +90,14 @@ void SubTriangleCover::choose_around(SubTriangle& sub_triangle, double limit) {
 
 /// Chooses among those chosen, if they are too many, the faces that hold most corners, then those nearest to the
 /// middle. Returns whether that is all of them.
-bool SubTriangleCover::choose_candidates(const Corners& corners, double limit) {
+bool SubTriangleCover::choose_candidates(const TriangleCorners& corners, double limit) {
   if (chosen_.size() <= CandidateFaces::capacity) return true;
   std::vector<std::tuple<std::ptrdiff_t, double, std::uint32_t>> ranked;
   for (const std::uint32_t f : chosen_) {
-    const Corners face = mesh_.triangle(f);
+    const TriangleCorners face = mesh_.triangle(f);
     const auto lost = std::count_if(corners.begin(), corners.end(),
                                     [&](Vec3 p) { return squared_distance(face, p) > limit * limit; });
-    ranked.emplace_back(lost, squared_distance(face, middle_of(corners)), f);
+    ranked.emplace_back(lost, squared_distance(face, centroid(corners)), f);
   }
   std::nth_element(ranked.begin(), ranked.begin() + CandidateFaces::capacity, ranked.end());
   std::sort(ranked.begin(), ranked.begin() + CandidateFaces::capacity);

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/triangle_corners.h"
 #include "simplify/cover/forward_cover.h"
 #include "simplify/mesh/array_mesh.h"
 
@@ -16,28 +17,26 @@ namespace meshbound {
 /// with candidates of its own. Not thread-safe.
 class SubTriangleCover {
  public:
-  using Corners = std::array<Vec3, 3>;
-
   /// Both must outlive this. The candidates that `cover` has are lost.
   SubTriangleCover(const ArrayMesh& mesh, ForwardCover& cover) : mesh_(mesh), cover_(cover) {}
 
   /// True: `covering` are some of the faces `around` that together hold a triangle within `limit`, as `CandidateFaces`
   /// tells. False says nothing, and `covering` are none.
-  [[nodiscard]] bool covers(const Corners& corners, std::span<const std::uint32_t> around, double limit,
+  [[nodiscard]] bool covers(const TriangleCorners& corners, std::span<const std::uint32_t> around, double limit,
                             std::vector<std::uint32_t>& covering);
   /// Whether one of these faces is within `limit` of a point, as computed.
   [[nodiscard]] bool is_near_one_of(std::span<const std::uint32_t> faces, Vec3 point, double limit) const;
 
  private:
   struct SubTriangle {
-    Corners corners;
+    TriangleCorners corners;
     int halvings = 0;
     std::span<const std::uint32_t> around;  ///< faces, among them those that meet its reach
   };
   [[nodiscard]] bool covers_all(double limit, std::vector<std::uint32_t>& covering);
   void halve(const SubTriangle& sub_triangle);
   void choose_around(SubTriangle& sub_triangle, double limit);
-  [[nodiscard]] bool choose_candidates(const Corners& corners, double limit);
+  [[nodiscard]] bool choose_candidates(const TriangleCorners& corners, double limit);
 
   const ArrayMesh& mesh_;
   ForwardCover& cover_;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "geometry/triangle_corners.h"
 #include "geometry/vec3.h"
 
 namespace meshbound {
@@ -28,11 +29,9 @@ struct Reach {
 
 /// What is asked of a block of planes, see `SimplifyKernels`.
 struct PlaneKernel {
-  using Corners = std::array<Vec3, 3>;
-
   /// Makes the planes of four triangles. Returns the lanes where they are accurate: where they are displaced by less
   /// than `slack`, a length, at any point that is within `tolerance` of the triangle. The planes of the others are 0.
-  unsigned (*set)(PlaneBlock& block, const Corners* triangles, double tolerance, double slack);
+  unsigned (*set)(PlaneBlock& block, const TriangleCorners* triangles, double tolerance, double slack);
 
   /// `squared_reach` is the square of the tolerance and of the room for the inaccuracy of the planes.
   SlabBits (*test)(const PlaneBlock& block, Vec3 p, double tolerance, double squared_reach);

@@ -3,6 +3,7 @@
 #pragma once
 #include <utility>
 
+#include "geometry/triangle_corners.h"
 #include "geometry/vec_lanes.h"
 #include "numeric/rounding.h"
 #include "numeric/simd.h"
@@ -18,7 +19,7 @@ inline Double4 plane_at(const PlaneBlock& block, int plane, Double4 x, Double4 y
   return load4(block.x[plane]) * x + load4(block.y[plane]) * y + load4(block.z[plane]) * z + load4(block.offset[plane]);
 }
 
-inline Vec<Double4> corner_lanes(const PlaneKernel::Corners* t, std::size_t k) {
+inline Vec<Double4> corner_lanes(const TriangleCorners* t, std::size_t k) {
   return gather4(t[0][k], t[1][k], t[2][k], t[3][k]);
 }
 
@@ -34,7 +35,7 @@ inline void store_plane(PlaneBlock& block, int plane, const Vec<Double4>& normal
 /// A cross product of computed edges is off by at most 8u |ab| |ac| in length, so the unit normal turns by at most
 /// 8u longest^2 / area and a side plane by twice that; at the distance of a point of the slab that is a displacement
 /// of 24u (longest + tolerance) longest^2 / area in all. Beyond the slack, or at zero area, the planes are not used.
-inline unsigned set_planes(PlaneBlock& block, const PlaneKernel::Corners* triangles, double tolerance, double slack) {
+inline unsigned set_planes(PlaneBlock& block, const TriangleCorners* triangles, double tolerance, double slack) {
   const Vec<Double4> a = corner_lanes(triangles, 0), b = corner_lanes(triangles, 1), c = corner_lanes(triangles, 2);
   const Vec<Double4> ab = b - a, ac = c - a, bc = c - b, ca = a - c;
   const Vec<Double4> normal = cross(ab, ac);

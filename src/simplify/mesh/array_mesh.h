@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/triangle_corners.h"
 #include "geometry/vec3.h"
 #include "meshbound/triangle_mesh.h"
 #include "numeric/no_index.h"
@@ -59,7 +60,7 @@ class ArrayMesh {
   [[nodiscard]] Triangle corners(std::uint32_t face) const {
     return {vertices_[3 * face], vertices_[3 * face + 1], vertices_[3 * face + 2]};
   }
-  [[nodiscard]] std::array<Vec3, 3> triangle(std::uint32_t face) const {
+  [[nodiscard]] TriangleCorners triangle(std::uint32_t face) const {
     return {positions_[vertices_[3 * face]], positions_[vertices_[3 * face + 1]], positions_[vertices_[3 * face + 2]]};
   }
   /// The number of an edge: one of its corners, the same from both sides.

@@ -26,7 +26,7 @@ bool NearestTriangle::Extent::may_be_within(Vec3 p, double squared) const {
   return squared_length(apart) * (1 - box_rounding) <= squared;
 }
 
-void NearestTriangle::add(const std::array<Vec3, 3>& corners) {
+void NearestTriangle::add(const TriangleCorners& corners) {
   Boxed& triangle = triangles_.emplace_back(Boxed{corners, {}});
   for (const Vec3 p : corners) triangle.box.extend(p);
 }

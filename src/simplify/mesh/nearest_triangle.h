@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "geometry/triangle_corners.h"
 #include "geometry/vec3.h"
 
 namespace meshbound {
@@ -12,7 +13,7 @@ namespace meshbound {
 /// A few triangles, for the nearest one to each of many points. Boxes tell which ones need not be looked at.
 class NearestTriangle {
  public:
-  void add(const std::array<Vec3, 3>& corners);
+  void add(const TriangleCorners& corners);
 
   /// The nearest triangle to p, the first of several. There must be one. Begins at the one that it found last, so
   /// points near one another should follow each other.
@@ -26,7 +27,7 @@ class NearestTriangle {
     [[nodiscard]] bool may_be_within(Vec3 p, double squared) const;
   };
   struct Boxed {
-    std::array<Vec3, 3> corners;
+    TriangleCorners corners;
     Extent box;
   };
   std::vector<Boxed> triangles_;

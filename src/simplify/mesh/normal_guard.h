@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "geometry/triangle_corners.h"
 #include "numeric/no_index.h"
 #include "simplify/mesh/array_mesh.h"
 
@@ -12,10 +13,8 @@ namespace meshbound {
 /// a fold of less than the tolerance is as near as the flat surface.
 class GuardedFace {
  public:
-  using Corners = std::array<Vec3, 3>;
-
   /// The face before the change.
-  explicit GuardedFace(const Corners& before) : normal_(normal(before)) {
+  explicit GuardedFace(const TriangleCorners& before) : normal_(normal(before)) {
     squared_area_ = squared_length(normal_);
     is_thin_ = is_thin(squared_area_, squared_longest_edge(before));
   }
@@ -34,7 +33,7 @@ class GuardedFace {
       stays_thin_ = true;
   }
 
-  [[nodiscard]] bool allows(const Corners& after) const {
+  [[nodiscard]] bool allows(const TriangleCorners& after) const {
     const Vec3 turned = normal(after);
     const double squared_area = squared_length(turned), longest = squared_longest_edge(after);
     if (!(squared_area > 0)) return false;
@@ -59,11 +58,11 @@ class GuardedFace {
   [[nodiscard]] bool folds_back(Vec3 turned) const {
     return dot(beside_, turned) < min_cosine_beside * length(beside_) * length(turned);
   }
-  static Vec3 normal(const Corners& c) { return cross(c[1] - c[0], c[2] - c[0]); }
+  static Vec3 normal(const TriangleCorners& c) { return cross(c[1] - c[0], c[2] - c[0]); }
   static bool is_thin(double squared_area, double squared_longest) {
     return squared_area < min_shape_with_normal * min_shape_with_normal * squared_longest * squared_longest;
   }
-  static double squared_longest_edge(const Corners& c) {
+  static double squared_longest_edge(const TriangleCorners& c) {
     return std::max({squared_length(c[1] - c[0]), squared_length(c[2] - c[1]), squared_length(c[0] - c[2])});
   }
 

@@ -14,7 +14,7 @@ FaceTurns::FaceTurns(const ArrayMesh& start, std::vector<std::uint8_t> is_turned
       lists_(start.face_count()) {
   std::vector<FacedTriangle> triangles;
   for (std::uint32_t f = 0; f < start.face_count(); ++f) {
-    const std::array<Vec3, 3> corners = start.triangle(f);
+    const TriangleCorners corners = start.triangle(f);
     const FacedTriangle triangle{corners, normal(f, corners)};
     if (squared_length(triangle.normal) == 0) continue;
     triangles.push_back(triangle);
@@ -26,7 +26,7 @@ FaceTurns::FaceTurns(const ArrayMesh& start, std::vector<std::uint8_t> is_turned
   rivals_.emplace(triangles, Rivals::Limits{limits.reach, min_cosine_, limits.threads});
 }
 
-Vec3 FaceTurns::normal(std::uint32_t face, const std::array<Vec3, 3>& corners) const {
+Vec3 FaceTurns::normal(std::uint32_t face, const TriangleCorners& corners) const {
   const Vec3 across = cross(corners[1] - corners[0], corners[2] - corners[0]);
   const double size = length(across);
   if (!(size > 0)) return {};

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/triangle_corners.h"
 #include "simplify/mesh/array_mesh.h"
 #include "simplify/mesh/sample_lists.h"
 #include "simplify/normals/rivals.h"
@@ -58,7 +59,7 @@ class FaceTurns {
   [[nodiscard]] const Rivals& rivals() const { return *rivals_; }
 
   /// The unit normal that a face of the mesh has in results, at these corners; 0 where it has no area.
-  [[nodiscard]] Vec3 normal(std::uint32_t face, const std::array<Vec3, 3>& corners) const;
+  [[nodiscard]] Vec3 normal(std::uint32_t face, const TriangleCorners& corners) const;
   /// Whether two unit normals are within the tolerance of each other.
   [[nodiscard]] bool allows(Vec3 before, Vec3 after) const { return dot(before, after) >= min_cosine_; }
   /// The angle between two unit normals in tolerances, rounded.

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "geometry/boxes.h"
+#include "geometry/triangle_corners.h"
 #include "simplify/mesh/faces_of_originals.h"
 
 namespace meshbound {
@@ -16,7 +17,7 @@ bool holds(const FaceTurns& turns, const ArrayMesh& mesh, const FaceTurns::Sampl
   bool is_allowed = true;
   for (const std::uint32_t face : faces) {
     if (face == no_index || mesh.is_removed(face)) continue;
-    const std::array<Vec3, 3> corners = mesh.triangle(face);
+    const TriangleCorners corners = mesh.triangle(face);
     const double squared = squared_distance(corners, sample.at);
     if (squared > nearest) continue;
     const bool is_as_near = squared == nearest;

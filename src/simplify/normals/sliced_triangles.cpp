@@ -5,6 +5,7 @@
 #include <array>
 
 #include "geometry/boxes.h"
+#include "geometry/triangle_corners.h"
 
 namespace meshbound {
 namespace {
@@ -21,7 +22,7 @@ constexpr std::size_t middles = 64;
 constexpr double max_heights_of_slice = 8;
 constexpr int max_slices = 16;
 
-int slice_count(const std::array<Vec3, 3>& corners) {
+int slice_count(const TriangleCorners& corners) {
   const auto& [a, b, c] = corners;
   const double squared_longest = std::max({squared_length(b - a), squared_length(c - b), squared_length(a - c)});
   const double heights = squared_longest / length(cross(b - a, c - a));
@@ -29,7 +30,7 @@ int slice_count(const std::array<Vec3, 3>& corners) {
 }
 
 /// The corners, the one opposite to the shortest edge first.
-std::array<Vec3, 3> from_tip(const std::array<Vec3, 3>& corners) {
+TriangleCorners from_tip(const TriangleCorners& corners) {
   std::size_t tip = 0;
   const auto squared_opposite = [&](std::size_t k) {
     return squared_length(corners[(k + 2) % 3] - corners[(k + 1) % 3]);

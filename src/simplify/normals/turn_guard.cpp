@@ -111,7 +111,7 @@ void TurnGuard::look_at(std::uint32_t face, const FaceTurns::Sample& sample, dou
                         std::optional<RivalFace>& nearest) const {
   if (!is_readable(face) || in_star_.contains(face)) return;
   const double limit = nearest ? nearest->squared : below;
-  const std::array<Vec3, 3> corners = mesh_.triangle(face);
+  const TriangleCorners corners = mesh_.triangle(face);
   if (squared_distance(box_of(corners), sample.at) >= limit) return;
   const double squared = squared_distance(corners, sample.at);
   if (squared >= limit) return;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/triangle_corners.h"
 #include "numeric/marked_ids.h"
 #include "simplify/kernel/kernels.h"
 #include "simplify/normals/face_turns.h"
@@ -48,7 +49,7 @@ class TurnGuard {
 
  private:
   struct Face {
-    std::array<Vec3, 3> corners;  ///< the moving one first
+    TriangleCorners corners;  ///< the moving one first
     Vec3 normal;
     std::uint32_t number = 0;
   };

@@ -22,7 +22,7 @@ std::array<std::size_t, 3> order_along_line(const CornerCoordinates& t) {
 
 }  // namespace
 
-std::optional<Vec3> nearest_with_coordinate(const std::array<Vec3, 3>& at, const CornerCoordinates& t,
+std::optional<Vec3> nearest_with_coordinate(const TriangleCorners& at, const CornerCoordinates& t,
                                             const Eigen::Vector2d& coordinate, Vec3 p) {
   if (t[0] == t[1] && t[0] == t[2]) {
     if (!((coordinate - t[0]).norm() <= rounding_of_coordinates * t[0].norm())) return std::nullopt;

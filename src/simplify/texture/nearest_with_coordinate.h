@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "geometry/triangle_corners.h"
 #include "geometry/vec3.h"
 #include "simplify/texture/texture_map.h"
 
@@ -18,7 +19,7 @@ inline constexpr double rounding_of_coordinates = 1e-9;
 /// with one of them form a segment, from the edge between the ends of the line to another edge. Where all its corners
 /// have one texture coordinate, all its points have it. Coordinates count as equal within `rounding_of_coordinates`.
 /// O(1).
-[[nodiscard]] std::optional<Vec3> nearest_with_coordinate(const std::array<Vec3, 3>& at, const CornerCoordinates& t,
+[[nodiscard]] std::optional<Vec3> nearest_with_coordinate(const TriangleCorners& at, const CornerCoordinates& t,
                                                           const Eigen::Vector2d& coordinate, Vec3 p);
 
 }  // namespace meshbound

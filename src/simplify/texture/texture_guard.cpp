@@ -53,7 +53,7 @@ std::array<double, 3> closest_on_outline(const CornerCoordinates& t, const Eigen
 
 /// The squared distance in the texture from a sample to the point of a face that is nearest there, and in space to that
 /// point: of a line in the texture many faces may have the coordinate of a sample, but one is where it is.
-std::pair<double, double> squared_distances(const TextureMap::Sample& sample, const std::array<Vec3, 3>& at,
+std::pair<double, double> squared_distances(const TextureMap::Sample& sample, const TriangleCorners& at,
                                             const CornerCoordinates& t) {
   std::optional<Vec3> point;
   const auto weights = weights_at(t, sample.coordinate);

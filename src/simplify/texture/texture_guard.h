@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/triangle_corners.h"
 #include "numeric/no_index.h"
 #include "simplify/texture/texture_map.h"
 
@@ -51,7 +52,7 @@ class TextureGuard {
  private:
   /// A face that stays, as it would be.
   struct Face {
-    std::array<Vec3, 3> at;
+    TriangleCorners at;
     CornerCoordinates coordinates;
     std::uint32_t chart = no_index, number = 0;
     // These are set where the face has an area in the texture.

@@ -77,7 +77,7 @@ Atlas::Atlas(const std::vector<Vec3>& vertices, const std::vector<Triangle>& tri
   on_lines_in_space_.emplace(in_space);
 }
 
-std::array<Vec3, 3> Atlas::corners(std::uint32_t triangle) const {
+TriangleCorners Atlas::corners(std::uint32_t triangle) const {
   const Triangle& t = triangles_[triangle];
   return {vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]};
 }

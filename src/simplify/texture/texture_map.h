@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/triangle_corners.h"
 #include "meshbound/triangle_mesh.h"
 #include "simplify/cover/box_tree.h"
 #include "simplify/mesh/array_mesh.h"
@@ -54,7 +55,7 @@ class Atlas {
                                                  double limit, std::vector<std::uint32_t>& found) const;
   void find_on_lines(const Eigen::Vector2d& coordinate, std::uint32_t material,
                      std::vector<std::uint32_t>& found) const;
-  [[nodiscard]] std::array<Vec3, 3> corners(std::uint32_t triangle) const;
+  [[nodiscard]] TriangleCorners corners(std::uint32_t triangle) const;
   template <class Visit>
   void for_each_point(const Eigen::Vector2d& coordinate, std::uint32_t material, std::vector<std::uint32_t>& found,
                       const Visit& visit) const;

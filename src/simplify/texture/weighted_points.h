@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <array>
 
+#include "geometry/triangle_corners.h"
 #include "geometry/vec3.h"
 
 namespace meshbound {
 
 /// The point of a triangle with these barycentric coordinates.
-[[nodiscard]] inline Vec3 point_of(const std::array<Vec3, 3>& corners, const std::array<double, 3>& weights) {
+[[nodiscard]] inline Vec3 point_of(const TriangleCorners& corners, const std::array<double, 3>& weights) {
   return weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
 }
 

@@ -6,7 +6,7 @@
 
 namespace meshbound {
 
-/// A triangle of A, or a sub-triangle of one, in B's working frame.
+/// The corners of a triangle, or of a sub-triangle of one.
 using TriangleCorners = std::array<Vec3, 3>;
 
 /// Rounded by less than 7 u M, for which the slack of a lower bound has room (numeric/rounding.h).
