@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "deviation/measure_points.h"
+#include "mesh/mesh_arrays.h"
 #include "meshbound/deviation_map.h"
 #include "meshbound/error.h"
 #include "meshbound/proximity.h"
@@ -33,11 +34,6 @@ struct FaceSearch {
   /// Beyond 2^53 multiples the numbers between two neighbours are no doubles.
   [[nodiscard]] bool is_open() const { return next() > failed && next() < proven; }
 };
-
-Corners corners_of(const MeshView& mesh, std::size_t face) {
-  const Triangle t = mesh.triangle(face);
-  return {mesh.vertex(t[0]), mesh.vertex(t[1]), mesh.vertex(t[2])};
-}
 
 /// An upper bound by the corners: no point of a triangle is further from a corner than the longest edge is long, and
 /// the distance to a mesh is 1-Lipschitz.

@@ -6,6 +6,7 @@
 
 #include "levels/level_run.h"
 #include "levels/measured_level.h"
+#include "mesh/validated.h"
 #include "meshbound/error.h"
 
 namespace meshbound {
@@ -20,11 +21,6 @@ const LodOptions& checked(const LodOptions& options) {
   complete.tolerance = 0;
   check_options(complete);
   return options;
-}
-
-const TriangleMesh& validated(const TriangleMesh& mesh) {
-  validate(mesh);
-  return mesh;
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-/// Copies of the vertices and triangles of a view, in its order, for algorithms that read them many times.
+/// Copies of what a view shows: of all vertices and triangles, in its order, for algorithms that read them many times,
+/// and of the corners of one triangle.
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -23,6 +25,11 @@ inline std::vector<Triangle> triangles_of(const MeshView& mesh) {
   std::vector<Triangle> triangles(mesh.triangle_count());
   for (std::size_t i = 0; i < triangles.size(); ++i) triangles[i] = mesh.triangle(i);
   return triangles;
+}
+
+[[nodiscard]] inline std::array<Eigen::Vector3d, 3> corners_of(const MeshView& mesh, std::size_t triangle) {
+  const Triangle t = mesh.triangle(triangle);
+  return {mesh.vertex(t[0]), mesh.vertex(t[1]), mesh.vertex(t[2])};
 }
 
 /// By vertex: 1 where a triangle uses it, else 0. Indices must be in range. O(n).

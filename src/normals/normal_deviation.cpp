@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/boxes.h"
+#include "mesh/mesh_arrays.h"
 #include "meshbound/error.h"
 #include "normals/normal_comparison.h"
 #include "numeric/tasks.h"
@@ -20,8 +22,7 @@ constexpr std::size_t grain = 1024;         ///< faces that a thread takes at on
 /// Distances from a point to faces that differ by less than this count as equal.
 double tie_of(const MeshView& mesh) {
   Eigen::AlignedBox3d box;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-    for (const std::uint32_t v : mesh.triangle(t)) box.extend(mesh.vertex(v));
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) box.extend(box_of(corners_of(mesh, t)));
   if (box.isEmpty()) return 0;
   const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
   return std::max(tie_share * box.diagonal().stableNorm(), rounding_share * largest);

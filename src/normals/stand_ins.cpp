@@ -7,6 +7,7 @@
 #include "geometry/boxes.h"
 #include "geometry/eigen_vec3.h"
 #include "geometry/longest_edge.h"
+#include "geometry/triangle_corners.h"
 #include "mesh/mesh_arrays.h"
 #include "meshbound/error.h"
 
@@ -14,11 +15,6 @@ namespace meshbound {
 namespace {
 
 using Corners = StandIns::Corners;
-
-Corners corners_of(const MeshView& mesh, std::size_t triangle) {
-  const Triangle t = mesh.triangle(triangle);
-  return {mesh.vertex(t[0]), mesh.vertex(t[1]), mesh.vertex(t[2])};
-}
 
 /// The unit normal; absent for a triangle without area.
 std::optional<Eigen::Vector3d> normal_of(const Corners& c) {
@@ -40,7 +36,7 @@ Eigen::Vector3d offset_from(const Corners& corners, const Eigen::Vector3d& p) {
   double size = 0;
   for (const Eigen::Vector3d& corner : corners) size = std::max(size, (corner - p).cwiseAbs().maxCoeff());
   if (!(size > 0)) return Eigen::Vector3d::Zero();
-  std::array<Vec3, 3> c;  // around p
+  TriangleCorners c;  // around p
   for (std::size_t k = 0; k < 3; ++k) {
     const Eigen::Vector3d way = (corners[k] - p) / size;
     c[k] = {way.x(), way.y(), way.z()};

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "geometry/position_table.h"
+#include "mesh/mesh_arrays.h"
+#include "mesh/validated.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
@@ -24,21 +26,9 @@
 namespace meshbound {
 namespace {
 
-const TriangleMesh& validated(const TriangleMesh& mesh) {
-  validate(mesh);
-  return mesh;
-}
-
 TriangleMesh in_frame(const TriangleMesh& mesh, const WorkingFrame& frame) {
   TriangleMesh result{mesh.vertices, mesh.triangles};
   for (Eigen::Vector3d& p : result.vertices) p = frame.to_frame(p);
-  return result;
-}
-
-std::vector<Vec3> positions_of(const TriangleMesh& mesh) {
-  std::vector<Vec3> result;
-  result.reserve(mesh.vertices.size());
-  for (const Eigen::Vector3d& p : mesh.vertices) result.push_back({p.x(), p.y(), p.z()});
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/boxes.h"
+#include "mesh/mesh_arrays.h"
 #include "meshbound/bvh.h"
 #include "meshbound/error.h"
 #include "meshbound/proximity.h"
@@ -16,11 +17,6 @@ namespace meshbound {
 namespace {
 
 using InputCorners = std::array<Eigen::Vector3d, 3>;
-
-InputCorners corners_of(const MeshView& mesh, std::size_t triangle) {
-  const Triangle t = mesh.triangle(triangle);
-  return {mesh.vertex(t[0]), mesh.vertex(t[1]), mesh.vertex(t[2])};
-}
 
 /// The triangles of a mesh by their corners, whatever order these are in.
 class TriangleSet {

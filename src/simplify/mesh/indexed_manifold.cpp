@@ -5,6 +5,7 @@
 #include <string>
 #include <tuple>
 
+#include "mesh/mesh_arrays.h"
 #include "meshbound/error.h"
 #include "numeric/no_index.h"
 
@@ -65,10 +66,7 @@ ArrayMesh indexed_manifold(const TriangleMesh& mesh) {
     const bool found = at != edges.end() && at->from == edge.to && at->to == edge.from;
     twins[edge.corner / 3][edge.corner % 3] = found ? at->corner : no_index;
   }
-  std::vector<Vec3> positions;
-  positions.reserve(mesh.vertices.size());
-  for (const Eigen::Vector3d& p : mesh.vertices) positions.push_back({p.x(), p.y(), p.z()});
-  ArrayMesh result(std::move(positions), {mesh.triangles.begin(), mesh.triangles.end()}, twins);
+  ArrayMesh result(positions_of(mesh), {mesh.triangles.begin(), mesh.triangles.end()}, twins);
   check_fans(result);
   return result;
 }
