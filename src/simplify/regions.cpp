@@ -7,8 +7,8 @@
 #include <span>
 
 #include "geometry/cut_axes.h"
+#include "numeric/disjoint_sets.h"
 #include "numeric/no_index.h"
-#include "numeric/numbers_below.h"
 #include "numeric/tasks.h"
 #include "simplify/propose.h"
 
@@ -106,11 +106,8 @@ class Cutter {
   /// refused: the cap of a cylinder would be decimated in one sector only, and the other cap in another one.
   void join_at_hubs() {
     const ArrayMesh& mesh = state_.mesh;
-    std::vector<std::uint32_t> faces(mesh.vertex_count(), 0), joined = numbers_below(count_);
-    const auto root = [&](std::uint32_t r) {
-      while (joined[r] != r) r = joined[r];
-      return r;
-    };
+    std::vector<std::uint32_t> faces(mesh.vertex_count(), 0);
+    DisjointSets regions(count_);
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f)
       if (!mesh.is_removed(f))
         for (const std::uint32_t v : mesh.corners(f)) ++faces[v];
@@ -118,14 +115,13 @@ class Cutter {
       const std::uint32_t hub = placed.vertex;
       if (faces[hub] <= max_faces_of_star) continue;
       mesh.for_each_corner(hub, [&](Corner c) {
-        for (const std::uint32_t v : {mesh.end(c), mesh.apex(c)}) {
-          const auto [low, high] = std::minmax({root(into_.region_of[hub]), root(into_.region_of[v])});
-          joined[high] = low;
-        }
+        for (const std::uint32_t v : {mesh.end(c), mesh.apex(c)})
+          regions.unite(into_.region_of[hub], into_.region_of[v]);
         return true;
       });
     }
-    for (std::uint32_t& r : joined) r = root(r);
+    std::vector<std::uint32_t> joined(count_);
+    for (std::uint32_t r = 0; r < count_; ++r) joined[r] = regions.find(r);
     join(joined);
   }
   /// `joined` names for each region the one that it becomes part of, which has no higher number.
