@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "mesh/first_use.h"
 #include "mesh/scene_layout.h"
-#include "numeric/no_index.h"
 
 namespace meshbound {
 namespace {
@@ -24,28 +24,18 @@ std::vector<std::vector<std::uint32_t>> triangles_by_placed(const SceneLayout& l
   return result;
 }
 
-/// Fills vertices and triangles of a group from its triangles of the original. `number`: by vertex of the original,
-/// `no_index` before and after.
-void take_triangles(SceneGroup& group, const TriangleMesh& original, std::vector<std::uint32_t>& number) {
-  for (const std::uint32_t t : group.triangles) {
-    Triangle& corners = group.mesh.triangles.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t v = original.triangles[t][k];
-      if (number[v] == no_index) {
-        number[v] = static_cast<std::uint32_t>(group.vertices.size());
-        group.vertices.push_back(v);
-        group.mesh.vertices.push_back(original.vertices[v]);
-      }
-      corners[k] = number[v];
-    }
-  }
-  for (const std::uint32_t v : group.vertices) number[v] = no_index;
+/// Fills vertices and triangles of a group from its triangles of the original. `number`: of vertices of the original,
+/// without any before and after.
+void take_triangles(SceneGroup& group, const TriangleMesh& original, FirstUse& number) {
+  for (const std::uint32_t t : group.triangles) group.mesh.triangles.push_back(number(original.triangles[t]));
+  group.vertices = number.used();
+  for (const std::uint32_t v : group.vertices) group.mesh.vertices.push_back(original.vertices[v]);
+  number.clear();
 }
 
 SceneGroup group_of_copies(const TriangleMesh& original, const SceneLayout& layout,
                            const std::vector<std::uint32_t>& placed,
-                           const std::vector<std::vector<std::uint32_t>>& triangles,
-                           std::vector<std::uint32_t>& number) {
+                           const std::vector<std::vector<std::uint32_t>>& triangles, FirstUse& number) {
   SceneGroup group;
   const NodePlacement& first = layout.placed[placed.front()].placement;
   group.scale = 0;
@@ -67,7 +57,7 @@ std::vector<SceneGroup> scene_groups(const TriangleMesh& original, const MeshAtt
   if (attributes.document == nullptr) return groups;
   const SceneLayout& layout = *scene_layout(attributes);
   const auto triangles = triangles_by_placed(layout, attributes.part);
-  std::vector<std::uint32_t> number(original.vertices.size(), no_index);
+  FirstUse number(original.vertices.size());
   SceneGroup kept;
   kept.is_kept = true;
   const std::vector<std::uint32_t> written = layout.written_copies();
