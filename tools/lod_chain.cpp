@@ -25,6 +25,7 @@
 #include "lod/one_file.h"
 #include "lod/tileset.h"
 #include "meshbound/error.h"
+#include "numeric/sort_unique.h"
 #include "view/view_run.h"
 
 namespace meshbound::tools {
@@ -252,8 +253,7 @@ void Run::choose_view() {
       levels.emplace_back(screen_space_tolerance(screen, pixels, distance), pixels);
     }
   }
-  std::sort(levels.begin(), levels.end());
-  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+  sort_unique(levels);
   for (const auto& [tolerance, pixels] : levels) {
     tolerances_.push_back(tolerance);
     pixels_.push_back(pixels);

@@ -13,6 +13,7 @@
 #include "meshbound/mesh_view.h"
 #include "numeric/first_error.h"
 #include "numeric/no_index.h"
+#include "numeric/sort_unique.h"
 #include "numeric/tasks.h"
 #include "numeric/thread_count.h"
 #include "simplify/ended_by.h"
@@ -24,8 +25,7 @@ namespace {
 std::vector<double> tolerances(const SimplifyOptions& options) {
   std::vector<double> all = options.levels;
   all.push_back(options.tolerance);
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  sort_unique(all);
   return all;
 }
 

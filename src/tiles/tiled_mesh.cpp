@@ -10,6 +10,7 @@
 #include "numeric/no_index.h"
 #include "numeric/numbers_below.h"
 #include "numeric/ranked_numbers.h"
+#include "numeric/sort_unique.h"
 #include "simplify/ended_by.h"
 #include "tiles/equal_positions.h"
 #include "tiles/tile_borders.h"
@@ -301,7 +302,7 @@ bool TiledMesh::is_at_rim(std::uint32_t tile, std::uint32_t triangle, Vec3 p) co
 /// first corner there are enough for that.
 std::vector<std::uint32_t> TiledMesh::originals_at_rim(std::uint32_t tile) const {
   std::vector<std::uint32_t> beside = (*beside_)[tile];
-  beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+  sort_unique(beside);
   const NumberLists covers = cover_.at(beside);
   const FirstCorners corners(original_, beside);
   std::size_t count = 0;

@@ -27,6 +27,7 @@
 #include "meshbound/io.h"
 #include "meshbound/mesh_summary.h"
 #include "numeric/no_index.h"
+#include "numeric/sort_unique.h"
 
 namespace meshbound::tools {
 namespace {
@@ -130,10 +131,7 @@ void DecimationRun::add_tolerances(const std::string& flag, const std::vector<st
   for (const std::string& text : texts) tolerances_.push_back(parse_length(flag, text).in_model_units(diagonal_));
 }
 
-void DecimationRun::sort_tolerances() {
-  std::sort(tolerances_.begin(), tolerances_.end());
-  tolerances_.erase(std::unique(tolerances_.begin(), tolerances_.end()), tolerances_.end());
-}
+void DecimationRun::sort_tolerances() { sort_unique(tolerances_); }
 
 void DecimationRun::choose_appearance(const std::string& kind) {
   if (shared_.texture_tolerance.empty()) {

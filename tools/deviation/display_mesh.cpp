@@ -11,6 +11,7 @@
 #include "mesh/first_use.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/transform.h"
+#include "numeric/sort_unique.h"
 
 namespace meshbound::tools {
 namespace {
@@ -48,8 +49,7 @@ std::vector<Triangle> between_clusters(const TriangleMesh& mesh, const std::vect
     std::rotate(r.begin(), std::min_element(r.begin(), r.end()), r.end());
     triangles.push_back(r);
   }
-  std::sort(triangles.begin(), triangles.end());
-  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  sort_unique(triangles);
   return triangles;
 }
 
@@ -82,8 +82,7 @@ std::vector<Edge> edges_of(const std::vector<Triangle>& triangles) {
   for (const Triangle& t : triangles)
     for (std::size_t k = 0; k < 3; ++k)
       edges.push_back({std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])});
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  sort_unique(edges);
   return edges;
 }
 

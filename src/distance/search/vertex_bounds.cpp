@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// Triangles bounded by a closest triangle of one of their vertices. Paper, 4.4.
-#include <algorithm>
 #include <limits>
 
 #include "distance/search/steps.h"
+#include "numeric/sort_unique.h"
 
 namespace meshbound {
 namespace {
@@ -32,8 +32,7 @@ std::vector<std::uint32_t> vertices_of(const Bvh::Data& a, const Remaining& rema
     const Triangle& t = a.corners[remaining.slot(i)];
     vertices.insert(vertices.end(), t.begin(), t.end());
   }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_unique(vertices);
   return vertices;
 }
 
