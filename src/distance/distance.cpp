@@ -7,7 +7,8 @@
 #include <tuple>
 
 #include "bvh/bvh_data.h"
-#include "distance/default_error_share.h"
+#include "distance/default_error.h"
+#include "distance/larger_bounds.h"
 #include "distance/search/one_sided.h"
 #include "distance/symmetric.h"
 #include "distance/unfinished.h"
@@ -66,8 +67,6 @@ Result measured_by_trees(const MeshView& a, const MeshView& b, const DistanceOpt
   return measure(trees->first, trees->second, after_trees(options, stop));
 }
 
-Bounds larger(const Bounds& x, const Bounds& y) { return {std::max(x.lower, y.lower), std::max(x.upper, y.upper)}; }
-
 ToleranceCheck checked_one_sided(const OneSidedTask& task) {
   ToleranceCheck check;
   check.tolerance = task.tolerance;
@@ -81,13 +80,11 @@ ToleranceCheck checked_one_sided(const OneSidedTask& task) {
 }  // namespace
 
 double default_error_bound(const PlacedModel& a, const PlacedModel& b) {
-  const double diagonal = a.bvh->bounding_box_diagonal();
-  return default_error_share * (diagonal > 0 ? diagonal : diagonal_of(placed_box(a).merged(placed_box(b))));
+  return default_error(a.bvh->bounding_box_diagonal(), [&] { return placed_box(a).merged(placed_box(b)); });
 }
 
 double default_error_bound(const MeshView& a, const MeshView& b, double diagonal) {
-  if (diagonal > 0) return default_error_share * diagonal;
-  return default_error_share * diagonal_of(used_bounding_box(a).merged(used_bounding_box(b)));
+  return default_error(diagonal, [&] { return used_bounding_box(a).merged(used_bounding_box(b)); });
 }
 
 OneSidedDistance one_sided_hausdorff_distance(const PlacedModel& a, const PlacedModel& b,

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "distance/default_error_share.h"
+#include "distance/default_error.h"
 #include "geometry/frame.h"
 #include "geometry/longest_edge.h"
 #include "meshbound/error.h"

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "distance/larger_bounds.h"
 #include "geometry/boxes.h"
 #include "meshbound/error.h"
 #include "numeric/rounding.h"
@@ -334,8 +335,7 @@ TextureDeviation measured(const Charts& charts_a, const Charts& charts_b, const 
   const double reach = options.tolerance.value_or(reach_share * diagonal_of(a));
   result.a_to_b = Direction(charts_a, charts_b, units, error_bound, reach, options, known[0]).run();
   result.b_to_a = Direction(charts_b, charts_a, units, error_bound, reach, options, known[1]).run();
-  result.bounds = {std::max(result.a_to_b.bounds.lower, result.b_to_a.bounds.lower),
-                   std::max(result.a_to_b.bounds.upper, result.b_to_a.bounds.upper)};
+  result.bounds = larger(result.a_to_b.bounds, result.b_to_a.bounds);
   return result;
 }
 

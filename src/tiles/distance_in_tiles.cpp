@@ -12,8 +12,9 @@
 #include <span>
 #include <utility>
 
-#include "distance/default_error_share.h"
+#include "distance/default_error.h"
 #include "distance/distance_stats.h"
+#include "distance/larger_bounds.h"
 #include "distance/search/one_sided.h"
 #include "mesh/stored_lists.h"
 #include "mesh/stored_mesh.h"
@@ -160,8 +161,7 @@ class TiledSearch {
 
   static void merge(OneSidedDistance& all, const OneSidedDistance& tile) {
     if (all.stats.triangles == 0 || tile.bounds.lower > all.bounds.lower) all.witness = tile.witness;
-    all.bounds.lower = std::max(all.bounds.lower, tile.bounds.lower);
-    all.bounds.upper = std::max(all.bounds.upper, tile.bounds.upper);
+    all.bounds = larger(all.bounds, tile.bounds);
     if (tile.outcome != Outcome::Converged && all.outcome != Outcome::BudgetExhausted) all.outcome = tile.outcome;
     add(all.stats, tile.stats);
   }
@@ -233,8 +233,7 @@ class TiledMeasurement {
 }  // namespace
 
 double default_error_bound(const StoredMesh& a, const StoredMesh& b, double diagonal) {
-  if (!(diagonal > 0)) diagonal = diagonal_of(used_bounding_box(a).merged(used_bounding_box(b)));
-  return default_error_share * diagonal;
+  return default_error(diagonal, [&] { return used_bounding_box(a).merged(used_bounding_box(b)); });
 }
 
 OneSidedDistance measure_one_side_in_tiles(const StoredMesh& a, const StoredMesh& b, const DistanceOptions& options,
@@ -249,8 +248,7 @@ HausdorffDistance measure_in_tiles(const StoredMesh& a, const StoredMesh& b, con
   constexpr double share_of_first = 0.5;
   result.a_to_b = measurement.a_to_b(0, share_of_first);
   result.b_to_a = measurement.b_to_a(result.a_to_b.bounds.lower, share_of_first);
-  result.bounds = {std::max(result.a_to_b.bounds.lower, result.b_to_a.bounds.lower),
-                   std::max(result.a_to_b.bounds.upper, result.b_to_a.bounds.upper)};
+  result.bounds = larger(result.a_to_b.bounds, result.b_to_a.bounds);
   return result;
 }
 
