@@ -12,6 +12,17 @@
 
 namespace meshbound {
 
+/// What to add to one number for the next, modulo 2^32, with its sign in the lowest bit: small steps are small numbers,
+/// up or down.
+[[nodiscard]] inline std::uint32_t folded_step(std::uint32_t from, std::uint32_t to) {
+  const auto difference = static_cast<std::int32_t>(to - from);
+  return (static_cast<std::uint32_t>(difference) << 1) ^ static_cast<std::uint32_t>(difference >> 31);
+}
+/// The number that such a step leads to.
+[[nodiscard]] inline std::uint32_t after_step(std::uint32_t from, std::uint32_t folded) {
+  return from + ((folded >> 1) ^ (~(folded & 1) + 1));
+}
+
 /// Puts numbers behind one another: integers in 7 bits a byte, so that small ones take one.
 class CompactWriter {
  public:
@@ -19,11 +30,8 @@ class CompactWriter {
     for (; value >= 0x80; value >>= 7) bytes_.push_back(static_cast<char>(value | 0x80));
     bytes_.push_back(static_cast<char>(value));
   }
-  /// What to add to `from`, modulo 2^32; near numbers take one byte in either direction.
-  void step(std::uint32_t from, std::uint32_t to) {
-    const auto difference = static_cast<std::int32_t>(to - from);
-    number((static_cast<std::uint32_t>(difference) << 1) ^ static_cast<std::uint32_t>(difference >> 31));
-  }
+  /// The step from one number to the next: near numbers take one byte.
+  void step(std::uint32_t from, std::uint32_t to) { number(folded_step(from, to)); }
   /// The bits of a value as they stand in memory.
   template <class T>
   void raw(const T& value) {
@@ -70,8 +78,7 @@ class CompactReader {
     return static_cast<std::size_t>(value);
   }
   [[nodiscard]] std::uint32_t step(std::uint32_t from) {
-    const auto coded = static_cast<std::uint32_t>(number());
-    return from + ((coded >> 1) ^ (~(coded & 1) + 1));
+    return after_step(from, static_cast<std::uint32_t>(number()));
   }
   template <class T>
   void raw(T& value) {

@@ -9,6 +9,7 @@
 
 #include "numeric/no_index.h"
 #include "tiles/adaptive_coder.h"
+#include "tiles/compact_bytes.h"
 #include "tiles/triangle_neighbours.h"
 
 namespace meshbound {
@@ -53,16 +54,6 @@ class Unpacking {
 
 constexpr std::uint64_t no_limit = ~std::uint64_t{0};
 
-/// Steps from a number to the next: small ones of either sign are small numbers.
-std::uint64_t folded(std::uint32_t from, std::uint32_t to) {
-  const auto difference = static_cast<std::int32_t>(to - from);
-  return (static_cast<std::uint32_t>(difference) << 1) ^ static_cast<std::uint32_t>(difference >> 31);
-}
-std::uint32_t unfolded(std::uint32_t from, std::uint64_t step) {
-  const auto coded = static_cast<std::uint32_t>(step);
-  return from + ((coded >> 1) ^ (~(coded & 1) + 1));
-}
-
 bool are_same(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
@@ -94,7 +85,8 @@ class TileCoder {
   std::uint64_t number(std::uint64_t value, std::uint64_t limit) { return coder_.number(facts_, value, limit); }
 
   std::uint32_t step(NumberChances& chances, std::uint32_t from, std::uint32_t to, std::size_t size) {
-    const std::uint32_t coded = unfolded(from, coder_.number(chances, folded(from, to), no_limit));
+    const std::uint64_t folded = coder_.number(chances, folded_step(from, to), no_limit);
+    const std::uint32_t coded = after_step(from, static_cast<std::uint32_t>(folded));
     if (coded >= size) CompactReader::fail();
     return coded;
   }
