@@ -12,6 +12,7 @@
 
 #include "mesh/mesh_assembler.h"
 #include "mesh/readers.h"
+#include "mesh/stl_layout.h"
 #include "mesh/text_cursor.h"
 #include "mesh/weld.h"
 #include "mesh/written_name.h"
@@ -21,11 +22,7 @@
 namespace meshbound {
 namespace {
 
-constexpr std::size_t count_offset = 80;  // bytes
-constexpr std::size_t records_offset = 84;
-constexpr std::size_t record_size = 50;     // normal, three corners, two bytes of attributes
-constexpr std::size_t corners_offset = 12;  // in a record
-constexpr std::size_t attribute_offset = 48;
+constexpr std::size_t corners_offset = 12, attribute_offset = 48;  // bytes, in a record
 
 bool equal_ignoring_case(std::string_view word, std::string_view lower_case) {
   return std::equal(word.begin(), word.end(), lower_case.begin(), lower_case.end(),
@@ -152,7 +149,7 @@ class StlTextReader {
 };
 
 std::size_t declared_triangles(std::string_view start) {
-  return load_number<std::uint32_t>(start.data() + count_offset, std::endian::little);
+  return load_number<std::uint32_t>(start.data() + stl_count_offset, std::endian::little);
 }
 
 Eigen::Vector3d corner_at(const char* at) {
@@ -168,10 +165,10 @@ void read_records(const MeshSource& source, const FileShare& share, MeshAssemble
   assembler.reserve(share.size(count) / 2, share.size(count));  // a closed surface has half as many vertices
   for (std::size_t i = share.begin(count); i < end; ++i) {
     Triangle triangle;
-    const char* const record = source.at(records_offset + i * record_size, record_size).data();
+    const char* const record = source.at(stl_records_offset + i * stl_record_size, stl_record_size).data();
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t offset_in_record = corners_offset + k * 3 * sizeof(float);
-      const std::size_t offset = records_offset + i * record_size + offset_in_record;
+      const std::size_t offset = stl_records_offset + i * stl_record_size + offset_in_record;
       const Eigen::Vector3d p = corner_at(record + offset_in_record);
       if (assembler.vertex_count() == std::numeric_limits<std::uint32_t>::max())
         source.fail_at_byte(offset, "more than 2^32-1 vertices");
@@ -199,8 +196,8 @@ bool starts_with_solid(const MeshSource& source) {
 /// The size must be what the count asks for. Fewer bytes than a record may follow, as they cannot hold a triangle. In a
 /// text file the four bytes of the count are characters, which would ask for 25 GB at least.
 bool is_binary_stl(std::string_view start, std::size_t size) {
-  if (size < records_offset) return false;
-  return (size - records_offset) / record_size == declared_triangles(start);
+  if (size < stl_records_offset) return false;
+  return (size - stl_records_offset) / stl_record_size == declared_triangles(start);
 }
 
 MeshFile read_stl(const MeshSource& source) {
@@ -208,16 +205,16 @@ MeshFile read_stl(const MeshSource& source) {
   if (is_utf16(source.bytes)) source.fail_at_byte(0, "the text is UTF-16; save it as ASCII or UTF-8");
   MeshSource text = source;
   if (text.bytes.starts_with("\xEF\xBB\xBF")) text.begin = 3;
-  const bool has_zero_byte = source.bytes.substr(0, records_offset).find('\0') != std::string_view::npos;
+  const bool has_zero_byte = source.bytes.substr(0, stl_records_offset).find('\0') != std::string_view::npos;
   if (starts_with_solid(text) && !has_zero_byte) return StlTextReader(text).read();
-  if (source.bytes.size() < records_offset)
+  if (source.bytes.size() < stl_records_offset)
     source.fail_at_byte(source.bytes.size(),
                         "the file is neither text that starts with 'solid' nor long enough for the " +
-                            std::to_string(records_offset) + " bytes that a binary STL starts with");
+                            std::to_string(stl_records_offset) + " bytes that a binary STL starts with");
   const std::size_t count = declared_triangles(source.bytes);
-  source.fail_at_byte(count_offset, "the header declares " + std::to_string(count) + " triangles, which take " +
-                                        std::to_string(records_offset + count * record_size) +
-                                        " bytes, but the file has " + std::to_string(source.bytes.size()));
+  source.fail_at_byte(stl_count_offset, "the header declares " + std::to_string(count) + " triangles, which take " +
+                                            std::to_string(stl_records_offset + count * stl_record_size) +
+                                            " bytes, but the file has " + std::to_string(source.bytes.size()));
 }
 
 std::optional<MeshCounts> stl_counts(const MeshSource& source) {

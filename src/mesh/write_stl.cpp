@@ -5,6 +5,7 @@
 
 #include "mesh/no_value.h"
 #include "mesh/round_to_floats.h"
+#include "mesh/stl_layout.h"
 #include "mesh/writers.h"
 #include "mesh/written_name.h"
 
@@ -53,7 +54,7 @@ void put_floats(AtomicFile& file, const Eigen::Vector3d& p) {
 
 void write_header(AtomicFile& file, const TriangleMesh& mesh) {
   std::string header = "binary STL by meshbound";  // must not start with "solid"
-  header.resize(80);
+  header.resize(stl_count_offset);
   file.write(header);
   put_little_endian(file, static_cast<std::uint32_t>(mesh.triangles.size()));
 }
@@ -80,9 +81,8 @@ void write_stl(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& o
 }
 
 void write_stl_share(AtomicFile& file, const TriangleMesh& mesh, const FileShare& share) {
-  constexpr std::size_t header_size = 84, record_size = 50;  // bytes
   if (share.index == 0) write_header(file, mesh);
-  file.seek(header_size + share.begin(mesh.triangles.size()) * record_size);
+  file.seek(stl_records_offset + share.begin(mesh.triangles.size()) * stl_record_size);
   write_records(file, mesh, share);
 }
 
