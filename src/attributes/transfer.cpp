@@ -174,15 +174,15 @@ class Transfer {
   [[nodiscard]] std::uint32_t chart(std::uint32_t corner) {
     return original().chart_of(level_.source_triangle[corner / 3]);
   }
-  [[nodiscard]] std::vector<Triangle> no_values() const {
-    return std::vector<Triangle>(level_.mesh.triangles.size(), {no_value, no_value, no_value});
+  [[nodiscard]] std::vector<Triangle> all_without_values() const {
+    return std::vector<Triangle>(level_.mesh.triangles.size(), no_values);
   }
 
   /// Texture coordinates and named attributes: one value for all corners of a sector.
   void take_values_of_sectors(MeshAttributes& result) {
-    if (!from_.texture_coordinates.empty()) result.texture_coordinates.index = no_values();
+    if (!from_.texture_coordinates.empty()) result.texture_coordinates.index = all_without_values();
     for (const NamedAttribute& from : from_.named)
-      result.named.push_back({from.name, from.width, from.interpolation, from.has_seams, {}, no_values()});
+      result.named.push_back({from.name, from.width, from.interpolation, from.has_seams, {}, all_without_values()});
     const bool has_own_coordinates = !level_.texture_coordinates.empty();
     const bool needs_points = !has_own_coordinates || !from_.named.empty();
     const Sectors sectors = this->sectors();
@@ -328,7 +328,7 @@ class Transfer {
 
   [[nodiscard]] CornerAttribute shared_means(const std::vector<Eigen::Vector3d>& by_corner) {
     CornerAttribute result;
-    result.index = no_values();
+    result.index = all_without_values();
     const auto is_smooth = [&](std::uint32_t i, std::uint32_t j) {
       return by_corner[i].dot(by_corner[j]) >= smooth_cosine;
     };
@@ -349,7 +349,7 @@ class Transfer {
   /// other values of its sector.
   [[nodiscard]] CornerAttribute normals_of_vertices(const std::vector<Eigen::Vector3d>& by_corner) {
     CornerAttribute result;
-    result.index = no_values();
+    result.index = all_without_values();
     FirstUse number_of(from_.normals.values.size());
     const Sectors sectors = this->sectors();
     for (std::size_t s = 0; s < sectors.size(); ++s) {

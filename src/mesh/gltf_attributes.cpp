@@ -148,7 +148,7 @@ void GltfAttributes::use_named(const std::string& name, std::string_view semanti
     if (is_skinning(semantic) || is_identifier(semantic, from.numbers)) made.interpolation = Interpolation::Nearest;
     if (name == "TANGENT") made.interpolation = Interpolation::Direction;
     made.has_seams = !is_skinning(semantic) && !is_direction(semantic);
-    made.index.assign(all_.part.size(), {no_value, no_value, no_value});
+    made.index.assign(all_.part.size(), no_values);
     named_.push_back(no_value);
   }
   NamedAttribute& to = all_.named[number->second];
@@ -166,7 +166,7 @@ void GltfAttributes::use_named(const std::string& name, std::string_view semanti
 
 void GltfAttributes::add_triangle(const Triangle& corners) {
   const auto numbers = [&](std::uint32_t first) {
-    if (first == no_value) return Triangle{no_value, no_value, no_value};
+    if (first == no_value) return no_values;
     return Triangle{first + corners[0], first + corners[1], first + corners[2]};
   };
   all_.texture_coordinates.index.push_back(numbers(texture_coordinates_));

@@ -20,9 +20,7 @@ std::uint32_t checked(std::int64_t index, std::size_t count) {
 }
 
 bool has_values(const std::vector<Triangle>& index) {
-  return std::any_of(index.begin(), index.end(), [](const Triangle& t) {
-    return t != Triangle{no_value, no_value, no_value};
-  });
+  return std::any_of(index.begin(), index.end(), [](const Triangle& t) { return t != no_values; });
 }
 
 /// A positive index may refer to a value further down in the file, so indices are checked at the end.

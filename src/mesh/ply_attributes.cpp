@@ -11,7 +11,6 @@
 namespace meshbound {
 namespace {
 
-constexpr Triangle no_values = {no_value, no_value, no_value};
 constexpr std::array<std::string_view, 3> coordinate_names = {"x", "y", "z"};
 constexpr std::array<std::string_view, 2> corner_names = {"vertex_indices", "vertex_index"};
 constexpr std::array<std::string_view, 3> normal_names = {"nx", "ny", "nz"};
