@@ -24,11 +24,10 @@ GltfComponent component_of(const GltfValue& accessor) {
 }
 
 std::size_t width_of(const GltfValue& accessor) {
-  static constexpr std::array<const char*, 4> names = {"SCALAR", "VEC2", "VEC3", "VEC4"};
   const std::string type = accessor.at("type").text();
-  const auto found = std::find(names.begin(), names.end(), type);
-  if (found == names.end()) accessor.fail("elements of type " + quote(type) + " are not read");
-  return static_cast<std::size_t>(found - names.begin()) + 1;
+  const auto found = std::find(gltf_types.begin(), gltf_types.end(), type);
+  if (found == gltf_types.end()) accessor.fail("elements of type " + quote(type) + " are not read");
+  return static_cast<std::size_t>(found - gltf_types.begin()) + 1;
 }
 
 class AccessorReader {

@@ -21,10 +21,7 @@ constexpr std::size_t alignment = 4;  // bytes: of every buffer view and of the 
 constexpr int target_vertices = 34962, target_indices = 34963;
 constexpr std::array<const char*, 2> added_to = {"accessors", "bufferViews"};
 
-const char* type_of_width(std::size_t width) {
-  static constexpr std::array<const char*, 4> names = {"SCALAR", "VEC2", "VEC3", "VEC4"};
-  return names[std::min<std::size_t>(width, 4) - 1];
-}
+const char* type_of_width(std::size_t width) { return gltf_types[std::min(width, gltf_types.size()) - 1]; }
 
 template <class T>
 void append(std::string& to, T value) {

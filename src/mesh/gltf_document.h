@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -66,6 +67,9 @@ struct GltfMode {
 enum class GltfComponent { Int8 = 5120, UInt8 = 5121, Int16 = 5122, UInt16 = 5123, UInt32 = 5125, Float = 5126 };
 
 [[nodiscard]] std::size_t size_of(GltfComponent component);
+
+/// The types of elements of one, two, three and four numbers.
+inline constexpr std::array<const char*, 4> gltf_types = {"SCALAR", "VEC2", "VEC3", "VEC4"};
 
 /// How the numbers of an accessor are stored.
 struct GltfNumbers {

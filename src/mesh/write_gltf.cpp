@@ -33,10 +33,9 @@ GltfLayout layout_of(const GltfJson& document, const GltfJson& primitive) {
   visit_properties(primitive, [&](const std::string& name, const GltfJson& number) {
     if (name == "POSITION" || !number.is_number_unsigned()) return;
     const GltfJson& accessor = document["accessors"][number.get<std::size_t>()];
-    static constexpr std::array<const char*, 4> types = {"SCALAR", "VEC2", "VEC3", "VEC4"};
-    const auto type = std::find(types.begin(), types.end(), accessor["type"].get<std::string>());
+    const auto type = std::find(gltf_types.begin(), gltf_types.end(), accessor["type"].get<std::string>());
     layout[name] = {static_cast<GltfComponent>(accessor["componentType"].get<int>()),
-                    accessor.value("normalized", false), static_cast<std::size_t>(type - types.begin()) + 1};
+                    accessor.value("normalized", false), static_cast<std::size_t>(type - gltf_types.begin()) + 1};
     if (target_property(name).semantic == "POSITION") layout[name] = {GltfComponent::Float, false, 3};
   });
   return layout;
