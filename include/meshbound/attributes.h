@@ -99,8 +99,8 @@ struct MeshAttributes {
 [[nodiscard]] std::vector<Edge> seams(const TriangleMesh& mesh, const MeshAttributes& attributes);
 
 /// `SimplifyOptions::looks`: triangles with the same corners look alike where they show the same side and have the same
-/// material, part and values at their corners. Empty where no two triangles have the same corners. Throws as `seams`.
-/// O(n log n).
+/// material, part and values at their corners. Empty where no two triangles have the same corners, and where the mesh
+/// has neither texture coordinates nor materials nor parts, as a scan. Throws as `seams`. O(n log n).
 [[nodiscard]] std::vector<std::uint32_t> looks(const TriangleMesh& mesh, const MeshAttributes& attributes);
 
 /// The attributes of a level of `original` that was made with its `seams` as feature edges.

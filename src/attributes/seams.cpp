@@ -129,7 +129,7 @@ ChartPartition charts(const TriangleMesh& mesh, const MeshAttributes& attributes
   const std::vector<Vec3> positions = positions_of(mesh);
   result.first = first_at_position(positions);
   result.neighbours = edge_neighbours(positions, mesh.triangles);
-  result.layers = layers(mesh, attributes, result.first, result.neighbours);
+  if (has_chart_borders(attributes)) result.layers = layers(mesh, attributes, result.first, result.neighbours);
   if (!result.layers.empty()) result.neighbours = neighbours_in_layers(mesh, result.layers);
   result.is_seam.resize(triangles, {0, 0, 0});
   (void)add_seams(mesh, result, [&](const Neighbours& at) { return is_seam(attributes, at); });
