@@ -125,7 +125,7 @@ TEST(Tasks, RunInTheFloatingPointModeOfTheCaller) {
   constexpr int threads = 3;
 #pragma omp parallel num_threads(threads)
   if (omp_get_thread_num() != 0) std::fesetround(FE_UPWARD);
-  const auto threads_of_another_mode = [] {
+  const auto threads_of_another_mode = [&] {
     std::atomic<int> others{0};
 #pragma omp parallel num_threads(threads)
     others += is_mode_of_bounds() ? 0 : 1;
