@@ -17,10 +17,12 @@
 #include <regex>
 #include <thread>
 
+#include "batch/child.h"
 #include "datasets/analytic_meshes.h"
 #include "meshbound/distance.h"
 #include "meshbound/io.h"
 #include "tool_refusal.h"
+#include "unreadable_folder.h"
 
 namespace meshbound {
 namespace batch_tool_test {
@@ -160,6 +162,38 @@ TEST_F(BatchTool, AFailureStopsNothing) {
   EXPECT_FALSE(fs::exists(in("out/broken.off")));
   for (const char* const name : {"cube.off", "torus.ply", "deep/sphere.stl"})
     EXPECT_EQ(lines.at(name)["status"], "within");
+}
+
+/// Where SIGCHLD is ignored the system discards exit codes, and a parent may have it so.
+TEST_F(BatchTool, KnowsFailuresWhoeverStartsIt) {
+  std::ofstream(in("models/broken.off")) << "OFF\n3 1 0\n0 0 0\n1 0 0\n";
+  const ToolRun result = run({"--quiet"}, "env --ignore-signal=CHLD");
+  EXPECT_EQ(result.exit_code, 2);
+  const auto lines = records();
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_EQ(lines.at("broken.off")["status"], "failed");
+  EXPECT_EQ(lines.at("cube.off")["status"], "within");
+}
+
+/// The document of each mesh is shorter than the limit, the report of all is longer.
+TEST_F(BatchTool, SaysWhyItCannotRecord) {
+  fs::remove_all(in("models"));
+  fs::create_directories(in("models"));
+  for (const char* const name : {"a", "b", "c", "d", "e", "f"})
+    write_mesh(in("models/" + std::string(name) + ".off"), datasets::cube(1, 3));
+  const ToolRun result = run({"--quiet", "--threads", "1"}, "ulimit -f 16;");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("batch.jsonl: File too large"), std::string::npos) << result.err;
+}
+
+TEST_F(BatchTool, AnExitCodeThatIsLostIsNotThatOfASuccess) {
+  const auto command = [](const std::string& text) { return std::vector<std::string>{"/bin/sh", "-c", text}; };
+  tools::Child child(command("exit 0"), 0, std::chrono::duration<double>(60));
+  ASSERT_GT(::wait(nullptr), 0);  // this test takes it
+  const auto end = child.poll();
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->exit_code, -1);
+  EXPECT_NE(end->fault, "");
 }
 
 TEST_F(BatchTool, KeepsEachMeshToItsLimits) {
@@ -421,6 +455,18 @@ TEST_F(BatchTool, IsNamedWhereINIsAFolder) {
   expect_refused(run_tool(SIMPLIFY_WITH_BOUND, {in("models"), in("out.ply"), "--tolerance", "1%"}),
                  "is a folder; name a mesh in it, or simplify all with --batch ");
   expect_refused(run_tool(SIMPLIFY_WITH_BOUND, {in("models"), "--tolerance", "1%"}), "is a folder");
+}
+
+/// A path that is too long for the system stands for a folder of somebody else, which the superuser may read.
+TEST_F(BatchTool, RecordsFoldersThatCannotBeRead) {
+  const fs::path unreadable = make_unreadable_folder(in("models/deep"));
+  EXPECT_EQ(run({}).exit_code, 2);
+  const auto lines = records();
+  ASSERT_EQ(lines.size(), 4u);
+  const json& record = lines.at(unreadable.lexically_relative(in("models")).string());
+  EXPECT_EQ(record["status"], "failed");
+  EXPECT_NE(record["message"].get<std::string>().find(": cannot read the folder: "), std::string::npos);
+  EXPECT_EQ(lines.at("deep/sphere.stl")["status"], "within");
 }
 
 /// The example for GNU parallel, as it stands in the document.

@@ -12,6 +12,7 @@
 #include "meshbound/io.h"
 #include "meshbound/transform.h"
 #include "tool_refusal.h"
+#include "unreadable_folder.h"
 
 namespace meshbound {
 namespace nearest_tool_test {
@@ -99,6 +100,16 @@ TEST_F(NearestTool, CountsWhatLacksItsBuffer) {
   EXPECT_EQ(found["candidates"], 4);
   ASSERT_EQ(found["unreadable"].size(), 1u);
   EXPECT_EQ(found["unreadable"][0]["path"], shapes_ + "/bare.gltf");
+}
+
+/// A path that is too long for the system stands for a folder of somebody else, which the superuser may read.
+TEST_F(NearestTool, CountsFoldersThatItCannotRead) {
+  const fs::path unreadable = make_unreadable_folder(shapes_ + "/below");
+  const json found = document({});
+  EXPECT_EQ(found["candidates"], 4);
+  ASSERT_EQ(found["unreadable"].size(), 1u);
+  EXPECT_EQ(found["unreadable"][0]["path"], unreadable.string());
+  EXPECT_NE(run({}).out.find("1, the first: " + unreadable.string() + ": cannot read the folder: "), std::string::npos);
 }
 
 TEST_F(NearestTool, WritesOverNoCandidate) {

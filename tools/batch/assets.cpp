@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "common/folder_files.h"
 #include "common/mesh_input.h"
 #include "meshbound/error.h"
 
@@ -13,20 +14,13 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<Asset> below_folder(const std::string& folder, const fs::path& output_dir) {
+  const auto name_of = [&folder](const fs::path& path) { return path.lexically_relative(folder).string(); };
+  const FolderFiles found = files_below(folder, output_dir);
   std::vector<Asset> assets;
-  std::error_code error;
-  const fs::recursive_directory_iterator end;
-  for (fs::recursive_directory_iterator it(folder, error); it != end; it.increment(error)) {
-    if (error) break;
-    std::error_code none;
-    if (it->is_directory(none) && fs::equivalent(it->path(), output_dir, none)) {
-      it.disable_recursion_pending();
-      continue;
-    }
-    if (!it->is_directory(none) && has_mesh_extension(it->path()))
-      assets.push_back({it->path(), it->path().lexically_relative(folder).string()});
-  }
-  if (error) throw IoError("--batch: cannot read " + folder + ": " + error.message());
+  for (const fs::path& path : found.files)
+    if (has_mesh_extension(path)) assets.push_back({path, name_of(path), ""});
+  for (const UnreadableFolder& unreadable : found.unreadable)
+    assets.push_back({unreadable.path, name_of(unreadable.path), unreadable.reason});
   return assets;
 }
 
@@ -45,7 +39,7 @@ std::vector<Asset> of_list(const std::string& path) {
   for (std::string line; std::getline(list, line);) {
     if (line.find('\0') != std::string::npos) throw InvalidInput(takes + path + " is not text: it has bytes of 0");
     if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (!line.empty() && line.front() != '#') assets.push_back({line, name_in_list(line)});
+    if (!line.empty() && line.front() != '#') assets.push_back({line, name_in_list(line), ""});
   }
   return assets;
 }

@@ -111,6 +111,7 @@ class BatchRun {
     AssetRecord record;
     record.input = record_name(asset.name);
     try {
+      if (!asset.fault.empty()) throw IoError(asset.fault);
       require_regular(asset.input);
       record.key = key_of(asset);
       if (const AssetRecord* const known = earlier(asset, record)) {
@@ -217,6 +218,10 @@ class BatchRun {
       record.message = "it did not end by its time limit and was killed";
     else if (end.signal != 0)
       record.message = "ended by signal " + std::to_string(end.signal);
+    if (!end.fault.empty()) {
+      record.message = end.fault;
+      return;
+    }
     record.result = nlohmann::ordered_json::parse(end.out, nullptr, false);
     if (record.result.is_discarded()) record.result = nullptr;
     if (record.result.is_null()) return;

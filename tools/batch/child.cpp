@@ -35,7 +35,8 @@ std::string content_of(int file) {
   return text;
 }
 
-/// Between fork and exec: system calls only.
+/// Between fork and exec: system calls only. No descriptor that comes here is one of 0 to 2, which `tool_main`
+/// occupies.
 [[noreturn]] void become(char* const* argv, std::uint64_t memory_limit, int out, int err, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(exit_of_failed_start);
@@ -58,6 +59,7 @@ Child::Child(const std::vector<std::string>& command, std::uint64_t memory_limit
   std::vector<char*> argv;
   for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
+  ::signal(SIGCHLD, SIG_DFL);  // ignored, as whoever started this process may have it, exit codes are lost
   const pid_t parent = ::getpid();
   process_ = out_ >= 0 && err_ >= 0 ? ::fork() : -1;
   if (process_ == 0) become(argv.data(), memory_limit, out_, err_, parent);
@@ -90,7 +92,7 @@ Child& Child::operator=(Child&& other) noexcept {
 Child::~Child() {
   if (process_ > 0) {
     ::kill(process_, SIGTERM);
-    ::waitpid(process_, nullptr, 0);
+    while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) continue;
   }
   if (out_ >= 0) ::close(out_);
   if (err_ >= 0) ::close(err_);
@@ -99,7 +101,9 @@ Child::~Child() {
 std::optional<ChildEnd> Child::poll() {
   int status = 0;
   rusage usage{};
-  if (::wait4(process_, &status, WNOHANG, &usage) == 0) {
+  const pid_t ended = ::wait4(process_, &status, WNOHANG, &usage);
+  const int error = errno;
+  if (ended == 0) {
     if (!was_late_ && Clock::now() >= deadline_) {
       was_late_ = true;
       ::kill(process_, SIGKILL);
@@ -108,7 +112,9 @@ std::optional<ChildEnd> Child::poll() {
   }
   process_ = -1;
   ChildEnd end;
-  if (WIFEXITED(status))
+  if (ended < 0)
+    end.fault = std::string("nobody knows how it ended: ") + std::strerror(error);
+  else if (WIFEXITED(status))
     end.exit_code = WEXITSTATUS(status);
   else
     end.signal = WTERMSIG(status);

@@ -12,8 +12,9 @@ namespace meshbound::tools {
 
 /// How a child process has ended.
 struct ChildEnd {
-  int exit_code = -1;  ///< -1: ended by a signal
+  int exit_code = -1;  ///< -1: ended by a signal, or unknown
   int signal = 0;      ///< that ended it; 0: none
+  std::string fault;   ///< why nobody knows how it ended; empty: it is known
   bool was_late = false;
   std::string out, err;
   double seconds = 0, cpu_seconds = 0;
@@ -24,8 +25,8 @@ struct ChildEnd {
 /// that ends.
 class Child {
  public:
-  /// Starts `command`. `memory_limit` in bytes, 0: none; it is killed after `seconds`. Throws `IoError` when it cannot
-  /// be started.
+  /// Starts `command`. `memory_limit` in bytes, 0: none; it is killed after `seconds`. From here on this process does
+  /// not ignore SIGCHLD. Throws `IoError` when it cannot be started.
   Child(const std::vector<std::string>& command, std::uint64_t memory_limit, std::chrono::duration<double> seconds);
   Child(Child&& other) noexcept;
   Child& operator=(Child&& other) noexcept;

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <ctime>
 #include <fstream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -125,8 +126,14 @@ void RecordFile::add(AssetRecord record) {
 }
 
 void RecordFile::append(const std::string& text) {
-  if (::write(file_, text.data(), text.size()) != static_cast<ssize_t>(text.size()) || ::fdatasync(file_) != 0)
-    throw IoError("cannot write to " + path_.string() + ": " + std::strerror(errno));
+  const auto fail = [this] { throw IoError("cannot write to " + path_.string() + ": " + std::strerror(errno)); };
+  for (std::string_view left = text; !left.empty();) {
+    const ssize_t written = ::write(file_, left.data(), left.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail();
+    left.remove_prefix(static_cast<std::size_t>(written));
+  }
+  if (::fdatasync(file_) != 0) fail();
 }
 
 }  // namespace meshbound::tools

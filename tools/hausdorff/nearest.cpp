@@ -8,6 +8,7 @@
 
 #include "common/distance_text.h"
 #include "common/distinct_files.h"
+#include "common/folder_files.h"
 #include "common/length.h"
 #include "common/mesh_input.h"
 #include "common/output.h"
@@ -38,27 +39,29 @@ struct Candidates {
   std::vector<Unreadable> unreadable;
 };
 
-/// Mesh files below a folder, by name, without the query itself.
-std::vector<std::string> mesh_files(const std::string& folder, const std::string& query) {
+/// Mesh files below a folder, by name, without the query itself. Folders that cannot be read are noted.
+std::vector<std::string> mesh_files(const std::string& folder, const std::string& query,
+                                    std::vector<Unreadable>& unreadable) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) throw IoError("--nearest: " + folder + " is no folder");
+  const FolderFiles found = files_below(folder);
+  for (const UnreadableFolder& skipped : found.unreadable)
+    unreadable.push_back({skipped.path.string(), skipped.reason});
   std::vector<std::string> paths;
-  const fs::recursive_directory_iterator end;
-  for (fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, error); it != end;
-       it.increment(error)) {
-    if (error) throw IoError("--nearest: cannot read " + folder + ": " + error.message());
-    std::error_code none;
-    if (it->is_regular_file(none) && has_mesh_extension(it->path()) && !fs::equivalent(it->path(), query, none))
-      paths.push_back(it->path().string());
-  }
-  if (paths.empty()) throw InvalidInput("--nearest: there is no mesh file below " + folder);
+  for (const fs::path& path : found.files)
+    if (fs::is_regular_file(path, error) && has_mesh_extension(path) && !fs::equivalent(path, query, error))
+      paths.push_back(path.string());
+  if (paths.empty())
+    throw InvalidInput("--nearest: there is no mesh file below " + folder +
+                       (unreadable.empty() ? "" : ", and " + unreadable.front().reason));
   std::sort(paths.begin(), paths.end());
   return paths;
 }
 
-Candidates load(const std::vector<std::string>& paths, const Arguments& arguments, const StopToken& stop) {
+/// Reads them into `candidates`, which may hold folders that cannot be read.
+void load(const std::vector<std::string>& paths, const Arguments& arguments, const StopToken& stop,
+          Candidates& candidates) {
   ProgressBar bar("reading", arguments.common.quiet);
-  Candidates candidates;
   for (const std::string& path : paths) {
     if (interrupted()) throw Error("interrupted");
     const auto skip = [&](const Error& problem) { candidates.unreadable.push_back({path, problem.what()}); };
@@ -74,7 +77,6 @@ Candidates load(const std::vector<std::string>& paths, const Arguments& argument
     }
     bar.show(static_cast<double>(candidates.shapes.size()) / static_cast<double>(paths.size()));
   }
-  return candidates;
 }
 
 SimilarityOptions options_of(const Arguments& arguments, const Stopwatch& watch) {
@@ -174,7 +176,8 @@ void print(const Candidates& candidates, const SimilarShapes& found, const Simil
 
 ExitCode run_nearest(const Arguments& arguments) {
   const Stopwatch watch;
-  const std::vector<std::string> paths = mesh_files(arguments.nearest, arguments.a);
+  Candidates candidates;
+  const std::vector<std::string> paths = mesh_files(arguments.nearest, arguments.a, candidates.unreadable);
   std::vector<NamedPath> inputs{{"QUERY", arguments.a}};
   for (const std::string& path : paths) inputs.push_back({"a candidate", path});
   require_distinct_files(inputs, {{"--json", arguments.common.json}});
@@ -185,7 +188,7 @@ ExitCode run_nearest(const Arguments& arguments) {
   const Shape query(read_input(arguments.a, !arguments.common.json.empty(), query_file, stop),
                     BvhOptions{arguments.common.threads, stop});
   query_file.dropped.reset();  // nothing is written again
-  const Candidates candidates = load(paths, arguments, stop);
+  load(paths, arguments, stop, candidates);
   const SimilarityOptions options = options_of(arguments, watch);
   const SimilarShapes found = nearest_shapes(query, candidates.shapes, options);
   if (interrupted()) throw Error("interrupted");
