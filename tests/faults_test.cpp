@@ -178,6 +178,30 @@ TEST(Faults, AFolderThatCannotBeWrittenIsSaid) {
   }
 }
 
+/// There is room for the meshes, but not for what is written beside them.
+TEST(Faults, AFullDiskForADocumentOrAPictureLeavesNoFile) {
+  const test::TemporaryFolder folder;
+  write_mesh(folder / "in.off", datasets::cube(1, 4));
+  const std::vector<std::string> simplify{"in.off", "out.ply", "--tolerance", "1%", "--quiet"};
+  const auto with = [](std::vector<std::string> arguments, const std::vector<std::string>& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  for (const auto& [tool, arguments] : std::vector<std::pair<std::string, std::vector<std::string>>>{
+           {SIMPLIFY_WITH_BOUND, with(simplify, {"--json", "out.json"})},
+           {SIMPLIFY_WITH_BOUND, with(simplify, {"--image", "out.png", "--levels", "0.5%"})},
+           {LOD_CHAIN, {"in.off", "chain", "--levels", "1%", "--quiet"}},
+           {HAUSDORFF_DISTANCE,
+            {"in.off", "in.off", "--tolerance", "1", "--certificate", "c", "--json", "j", "--quiet"}}}) {
+    const ToolRun run =
+        run_shell("cd " + shell_quoted(folder.path()) + " && ulimit -f 4; " + command_line(tool, arguments));
+    EXPECT_EQ(run.exit_code, 2) << run.err;
+    EXPECT_EQ(line_count(run.err), 1) << run.err;
+    EXPECT_NE(run.err.find("cannot write: File too large"), std::string::npos) << run.err;
+    EXPECT_EQ(std::distance(fs::recursive_directory_iterator(folder.path()), {}), 1) << tool;
+  }
+}
+
 TEST(Faults, AFullStandardOutputIsSaid) {
   const test::TemporaryFolder folder;
   write_mesh(folder / "in.off", datasets::icosphere(1, 2));

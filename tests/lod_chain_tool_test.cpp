@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The tool lod_chain through its command line: every file it names holds its tolerance, and none is there otherwise.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <filesystem>
@@ -285,6 +286,23 @@ TEST_F(LodChainTool, HasAProvenMeshForEveryLevelWhenItIsOutOfTime) {
       EXPECT_EQ(level["faces"], read_mesh(in("torus.off")).mesh.triangles.size());
     }
     expect_levels_hold(json);
+  }
+}
+
+/// A FIFO that nobody reads: the levels have appeared, which no signal separates, and the document waits.
+TEST_F(LodChainTool, EndsByASignalWhereNobodyReadsTheDocument) {
+  for (const std::string name : {"chain.json", "tileset.json"}) {
+    fs::remove_all(in("chain"));
+    fs::create_directory(in("chain"));
+    ASSERT_EQ(::mkfifo((in("chain") + "/" + name).c_str(), 0600), 0);
+    const std::string command = testing_tools::command_line(
+        LOD_CHAIN, {in("torus.off"), in("chain"), "--levels", "1%", "--format", "glb", "--tileset", "--quiet"});
+    const ToolRun result = testing_tools::run_shell(
+        "(" + command + ") & run=$!; until [ -e " + testing_tools::shell_quoted(in("chain/lod_0.glb")) +
+            " ]; do sleep 0.01; kill -0 $run || exit 99; done; kill -TERM $run; wait $run",
+        60);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.err, "lod_chain: " + in("chain/") + name + ": interrupted while it was written\n");
   }
 }
 

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <deque>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -146,7 +147,8 @@ class Run : DecimationRun {
   void note_level(std::size_t index, EndedBy ended_by, DecidedBy decided_by);
   void measure_deviation();
   void publish();
-  void write_tileset() const;
+  void stage_chain(std::deque<StagedText>& documents);
+  [[nodiscard]] std::string tileset_text() const;
   [[nodiscard]] std::vector<std::filesystem::path> stale_files() const;
   void print_summary() const;
 
@@ -173,12 +175,10 @@ int Run::operator()() {
   make_levels();
   if (report_.verdict == Verdict::Within) {
     if (deviation_) measure_deviation();
-    publish();
   } else if (interrupted_) {
     throw Error("interrupted before every level was proven; nothing was written");
   }
-  if (!options_.common.json.empty()) write_text(options_.common.json, to_json(report_));
-  if (report_.deviation) deviation_->write(to_json(report_));
+  publish();
   const bool is_within = report_.verdict == Verdict::Within;
   if (is_within && options_.common.json != "-" && !options_.common.quiet) print_summary();
   if (!is_within)
@@ -367,25 +367,42 @@ void Run::measure_deviation() {
   }
 }
 
+/// Makes all files appear; without a proof that is the document of --json alone. Everything that a full disk can
+/// prevent comes before the first one.
 void Run::publish() {
+  const bool is_proven = report_.verdict == Verdict::Within;
   const std::vector<std::filesystem::path> stale = stale_files();
+  std::deque<StagedText> documents;
+  if (is_proven) stage_chain(documents);
+  if (!options_.common.json.empty())
+    documents.emplace_back(options_.common.json, to_json(report_), StopToken{.cancel = &interrupted_});
+  if (report_.deviation) deviation_->stage(to_json(report_));
+  const UninterruptedScope together;
+  if (is_proven)
+    for (GatedOutput& output : outputs_) output.publish();
+  if (is_proven && one_file_) one_file_->commit();
+  if (report_.deviation) deviation_->publish();
+  // They name the files, so they come last; an interrupted rename leaves the old ones with the old names.
+  for (StagedText& document : documents) document.publish();
+  if (!is_proven) return;
+  std::error_code ignored;  // the new chain.json does not name these files, so a failure to remove one does no harm
+  for (const std::filesystem::path& path : stale) std::filesystem::remove(path, ignored);
+}
+
+/// Writes what stands beside the levels, under no name yet.
+void Run::stage_chain(std::deque<StagedText>& documents) {
   if (one_file_) {
     const PixelError limit{report_.view ? report_.view->pixels : 1, screen_height()};
     const auto vertices = options_.placement == "subset" ? LevelVertices::Shared : LevelVertices::Apart;
     write_levels(*one_file_, outputs_, original_, attributes_, limit, vertices);
     one_file_->complete();
   }
-  const UninterruptedScope together;
-  // The report names the files, so it comes last; an interrupted rename leaves the old report with the old names.
-  for (GatedOutput& output : outputs_) output.publish();
-  if (one_file_) one_file_->commit();
-  if (options_.tileset) write_tileset();
-  write_text(chain_path(), to_json(report_));
-  std::error_code ignored;  // the new chain.json does not name these files, so a failure to remove one does no harm
-  for (const std::filesystem::path& path : stale) std::filesystem::remove(path, ignored);
+  const StopToken signals{.cancel = &interrupted_};
+  if (options_.tileset) documents.emplace_back(tileset_path(), tileset_text(), signals);
+  documents.emplace_back(chain_path(), to_json(report_), signals);
 }
 
-void Run::write_tileset() const {
+std::string Run::tileset_text() const {
   std::vector<TileLevel> levels;
   double error = 0;  // that of a tile must not be below those of its children, and a coarser level may be nearer
   for (const LodReport::Level& level : report_.levels) {
@@ -398,7 +415,7 @@ void Run::write_tileset() const {
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(levels.back().error);  // a level may stand out by that
   box.extend(Eigen::Vector3d(box.min() - margin));
   box.extend(Eigen::Vector3d(box.max() + margin));
-  write_text(tileset_path(), tileset(levels, box, options_.deviation.up));
+  return tileset(levels, box, options_.deviation.up);
 }
 
 /// Levels of an earlier run in the same folder that this run neither reads nor writes.

@@ -6,6 +6,7 @@
 
 #include "common/distance_text.h"
 #include "common/length.h"
+#include "common/signals.h"
 #include "deviation/deviation_image.h"
 #include "deviation/heatmap_file.h"
 #include "meshbound/bvh.h"
@@ -77,18 +78,23 @@ void DeviationOutputs::measure(const DeviationSubject& subject, const DeviationO
       statistics_of(*subject.original, measured.trees.second, subject.scale, subject.maxima.of_original, options);
   report_.b_to_a =
       statistics_of(*subject.result, measured.trees.first, subject.scale, subject.maxima.of_result, options);
-  stage(request_.heatmap, *subject.result, measured.result, subject,
-        subject.result_name + ", coloured by its distance to " + subject.original_name);
-  stage(request_.original_heatmap, *subject.original, measured.original, subject,
-        subject.original_name + ", coloured by its distance to " + subject.result_name);
+  stage_heatmap(request_.heatmap, *subject.result, measured.result, subject,
+                subject.result_name + ", coloured by its distance to " + subject.original_name);
+  stage_heatmap(request_.original_heatmap, *subject.original, measured.original, subject,
+                subject.original_name + ", coloured by its distance to " + subject.result_name);
   if (!request_.image.empty()) make_picture(subject, measured, options);
   if (!request_.report.empty()) make_scene(subject, measured, options);
 }
 
-void DeviationOutputs::stage(const std::string& path, const TriangleMesh& mesh, const std::vector<Bounds>& deviations,
-                             const DeviationSubject& subject, const std::string& description) {
+AtomicFile& DeviationOutputs::add_file(const std::string& path) {
+  return files_.emplace_back(path, AtomicFile::Stream::Staged, StopToken{.cancel = &interrupted()});
+}
+
+void DeviationOutputs::stage_heatmap(const std::string& path, const TriangleMesh& mesh,
+                                     const std::vector<Bounds>& deviations, const DeviationSubject& subject,
+                                     const std::string& description) {
   if (path.empty()) return;
-  AtomicFile& file = heatmaps_.emplace_back(path, AtomicFile::Stream::Staged);
+  AtomicFile& file = add_file(path);
   write_heatmap(file, mesh, deviations, subject.scale, description);
   file.complete();
 }
@@ -140,18 +146,21 @@ void DeviationOutputs::make_scene(const DeviationSubject& subject, const Measure
   scene_.levels.push_back(std::move(result));
 }
 
-void DeviationOutputs::write(const std::string& document) {
-  for (AtomicFile& file : heatmaps_) file.commit();
+void DeviationOutputs::stage(const std::string& document) {
   if (!request_.image.empty()) {
-    AtomicFile file(request_.image);
+    AtomicFile& file = add_file(request_.image);
     file.write(png_);
-    file.commit();
+    file.complete();
   }
   if (!request_.report.empty()) {
-    AtomicFile file(request_.report);
+    AtomicFile& file = add_file(request_.report);
     write_report(file, document, scene_);
-    file.commit();
+    file.complete();
   }
+}
+
+void DeviationOutputs::publish() {
+  for (AtomicFile& file : files_) file.commit();
 }
 
 void print_deviation(const DeviationReport& report, const std::string& a_to_b, const std::string& b_to_a) {

@@ -54,30 +54,36 @@ struct DeviationSubject {
   bool worst_is_on_original = true;  ///< the mesh that the picture shows in colours: where the worst spot is
 };
 
-/// Makes everything that a `DeviationRequest` asks for: `measure` does the work, `write` makes the files visible.
+/// Makes everything that a `DeviationRequest` asks for: `measure` does the work, `stage` writes the files under no
+/// name, `publish` makes them visible.
 class DeviationOutputs {
  public:
   /// `request` must outlive this.
   explicit DeviationOutputs(const DeviationRequest& request) : request_(request) {}
 
-  /// Measures and draws, and writes the coloured meshes under temporary names. Throws `Stopped` as the options say,
+  /// Measures and draws, and writes the coloured meshes under no name. Throws `Stopped` as the options say,
   /// `IoError` when a file cannot be written.
   void measure(const DeviationSubject& subject, const DeviationOptions& options);
   /// What `measure` found.
   [[nodiscard]] const DeviationReport& report() const { return report_; }
-  /// Makes the files visible. `document` is what `--json` writes. Throws `IoError`. Call once, after `measure`.
-  void write(const std::string& document);
+  /// Writes the picture and the report under no name. `document` is what `--json` writes. Throws `IoError`. Call once,
+  /// after `measure`.
+  void stage(const std::string& document);
+  /// Makes the files visible. Call once, after `stage`. Throws `IoError`, and `Interrupted` where a device or FIFO is
+  /// waited for.
+  void publish();
 
  private:
   struct Measured;
-  void stage(const std::string& path, const TriangleMesh& mesh, const std::vector<Bounds>& deviations,
-             const DeviationSubject& subject, const std::string& description);
+  AtomicFile& add_file(const std::string& path);
+  void stage_heatmap(const std::string& path, const TriangleMesh& mesh, const std::vector<Bounds>& deviations,
+                     const DeviationSubject& subject, const std::string& description);
   void make_picture(const DeviationSubject& subject, const Measured& measured, const DeviationOptions& options);
   void make_scene(const DeviationSubject& subject, const Measured& measured, const DeviationOptions& options);
 
   const DeviationRequest& request_;
   DeviationReport report_;
-  std::deque<AtomicFile> heatmaps_;
+  std::deque<AtomicFile> files_;
   std::string png_;
   ReportScene scene_;
 };

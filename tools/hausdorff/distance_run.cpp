@@ -141,8 +141,8 @@ std::optional<Certificate> certificate_of(const Arguments& arguments, const Mesh
   return arguments.workers->certify(a, b, tolerance, options);
 }
 
-/// Writes the proof of tolerances that were found to hold, that of the texture where there is one. False if there was
-/// no time for it.
+/// Writes the proof of tolerances that were found to hold, that of the texture where there is one, under no name yet.
+/// False if there was no time for it.
 bool write_certificate(AtomicFile& file, const Arguments& arguments, const Meshes& meshes, double tolerance,
                        const std::optional<double>& texture_tolerance, const Stopwatch& watch) {
   ProgressBar bar("proving", arguments.common.quiet);
@@ -160,7 +160,7 @@ bool write_certificate(AtomicFile& file, const Arguments& arguments, const Meshe
     certificate = std::move(with_texture->certificate);
   }
   file.write({reinterpret_cast<const char*>(certificate->bytes.data()), certificate->bytes.size()});
-  file.commit();
+  file.complete();
   return true;
 }
 
@@ -219,9 +219,21 @@ void fill(DistanceReport& report, const Answer& answer, const Question& question
   report.worst = worst_spot(answer.bounds, answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr);
 }
 
-/// Writes the JSON document and the text. With --quiet, an answer that is no success is still reported on stderr.
+/// Makes all files appear, the JSON document last: everything that a full disk can prevent comes before the first one.
+void publish(std::optional<AtomicFile>& certificate, std::optional<DeviationOutputs>& deviation,
+             const DistanceReport& report, const Arguments& arguments) {
+  std::optional<StagedText> json;
+  if (!arguments.common.json.empty())
+    json.emplace(arguments.common.json, to_json(report), StopToken{.cancel = &interrupted()});
+  if (deviation) deviation->stage(to_json(report));
+  const UninterruptedScope together;
+  if (certificate) certificate->commit();
+  if (deviation) deviation->publish();
+  if (json) json->publish();
+}
+
+/// Writes the text. With --quiet, an answer that is no success is still reported on stderr.
 void tell(const DistanceReport& report, const Arguments& arguments) {
-  if (!arguments.common.json.empty()) write_text(arguments.common.json, to_json(report));
   if (arguments.common.quiet) {
     const std::string line = closing_line(report);
     if (!line.empty()) std::fprintf(stderr, "%s\n", line.c_str());
@@ -363,11 +375,14 @@ Answer answer_to(const Question& question, const Meshes& meshes, const Arguments
   return std::move(*found);
 }
 
-/// Writes the certificate of a tolerance that was found to hold; the answer is undecided if there was no time for it.
-void certify(AtomicFile& file, const Arguments& arguments, const Meshes& meshes, double tolerance,
+/// Writes the certificate of a tolerance that was found to hold, or drops the file; the answer is undecided if there
+/// was no time for it.
+void certify(std::optional<AtomicFile>& file, const Arguments& arguments, const Meshes& meshes, double tolerance,
              const std::optional<double>& texture_tolerance, const Stopwatch& watch, Answer& answer) {
-  if (answer.exit_code != ExitDone || write_certificate(file, arguments, meshes, tolerance, texture_tolerance, watch))
-    return;
+  const bool holds = answer.exit_code == ExitDone;
+  if (holds && write_certificate(*file, arguments, meshes, tolerance, texture_tolerance, watch)) return;
+  file.reset();
+  if (!holds) return;
   if (interrupted()) throw Error("interrupted before the certificate was complete; it was not written");
   std::fprintf(stderr, "%s: no time was left for the certificate; it was not written\n", provenance().tool.c_str());
   answer.exit_code = ExitUndecided;
@@ -404,7 +419,7 @@ int run_distance(const Arguments& arguments) {
   }
   if (certificate) {
     const auto texture_tolerance = report.texture ? report.texture->tolerance : std::nullopt;
-    certify(*certificate, arguments, meshes, *question.tolerance, texture_tolerance, watch, answer);
+    certify(certificate, arguments, meshes, *question.tolerance, texture_tolerance, watch, answer);
   }
   if (deviation && measure_deviation(*deviation, answer, question, meshes.a, meshes.b, arguments, watch)) {
     report.deviation = deviation->report();
@@ -418,7 +433,7 @@ int run_distance(const Arguments& arguments) {
   if (arguments.workers != nullptr) report.communication = arguments.workers->communication();
   report.seconds.total = watch.seconds();
   fill(report, answer, question, arguments);
-  if (deviation) deviation->write(to_json(report));
+  publish(certificate, deviation, report, arguments);
   tell(report, arguments);
   return answer.exit_code;
 }

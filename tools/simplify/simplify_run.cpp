@@ -60,8 +60,9 @@ class Run : DecimationRun {
                                                           CertificateOptions options) const;
   void write_certificates();
   void measure_deviation();
+  void describe();
   void publish();
-  void report();
+  void tell();
 
   const SimplifyArguments& options_;
   std::optional<OutputFolder> folder_;  ///< of the levels
@@ -98,8 +99,9 @@ int Run::operator()() {
   make_levels();
   if (verdict_ == Verdict::Within) write_certificates();
   if (verdict_ == Verdict::Within && deviation_) measure_deviation();
-  if (verdict_ == Verdict::Within) publish();
-  report();
+  describe();
+  publish();
+  tell();
   const bool lacks_deviation = options_.deviation.has_any() && !report_.deviation;
   return verdict_ == Verdict::Within && (ended_by_time() || lacks_deviation) ? ExitUndecided : exit_code(verdict_);
 }
@@ -327,16 +329,9 @@ void Run::measure_deviation() {
   }
 }
 
-/// Publishes certificates last, so that the mesh of each published certificate is there.
-void Run::publish() {
-  if (has_document())
+void Run::describe() {
+  if (verdict_ == Verdict::Within && has_document())
     for (const GatedOutput& output : outputs_) checksums_.push_back(output.checksum());
-  const UninterruptedScope together;
-  for (GatedOutput& output : outputs_) output.publish();
-  for (AtomicFile& certificate : certificates_) certificate.commit();
-}
-
-void Run::report() {
   const GatedOutput& out = outputs_.back();
   report_.verdict = verdict_;
   report_.decided_by = decided_by_.empty() ? DecidedBy::Measurement : decided_by_.back();
@@ -356,8 +351,25 @@ void Run::report() {
   report_.threads = threads();
   if (options_.workers != nullptr) report_.communication = options_.workers->communication();
   report_.seconds.total = watch_.seconds();
-  if (!options_.common.json.empty()) write_text(options_.common.json, to_json(report_));
-  if (report_.deviation) deviation_->write(to_json(report_));
+}
+
+/// Makes all files appear; without a proof that is the document alone. Everything that a full disk can prevent comes
+/// before the first one. A certificate comes after its mesh, and the document after what it names.
+void Run::publish() {
+  std::optional<StagedText> json;
+  if (!options_.common.json.empty())
+    json.emplace(options_.common.json, to_json(report_), StopToken{.cancel = &interrupted_});
+  if (report_.deviation) deviation_->stage(to_json(report_));
+  const UninterruptedScope together;
+  if (verdict_ == Verdict::Within) {
+    for (GatedOutput& output : outputs_) output.publish();
+    for (AtomicFile& certificate : certificates_) certificate.commit();
+  }
+  if (report_.deviation) deviation_->publish();
+  if (json) json->publish();
+}
+
+void Run::tell() {
   const bool is_stdout_taken = options_.common.json == "-" || is_stream_path(options_.output);
   if (verdict_ == Verdict::Within && !is_stdout_taken && !options_.common.quiet) {
     const bool is_rounded = result_.last().ended_by == EndedBy::Rounding;
