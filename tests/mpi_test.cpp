@@ -351,7 +351,7 @@ const Stage stages[] = {
     {"reading", "find /proc/[0-9]*/fd -lname \"$scratch/*\" 2>/dev/null | grep -q .", "tail", false},
     {"the first pass", "[ -e $scratch/*/0-3 ]", "head", true},
     {"a later pass", "ls $scratch/*/1-* >$scratch/ls 2>&1", "tail", true},
-    {"writing or measuring", "find /proc/[0-9]*/fd -lname \"$out/*\" 2>/dev/null | grep -q .", "head", false}};
+    {"writing or measuring", "find /proc/[0-9]*/fd -lname \"$out/*\" 2>/dev/null | grep -q .", "tail", true}};
 
 TEST_F(FaultsOverRanks, EndTheRunWhereARankIsKilledAndLeaveNothingButResultsOfTiles) {
   for (const Stage& stage : stages) {
@@ -372,6 +372,23 @@ TEST_F(FaultsOverRanks, EndTheRunWhereARankIsKilledAndLeaveNothingButResultsOfTi
     }
     expect_resumed(scratch, has_tiles);
   }
+}
+
+/// mpirun sends the first rank a signal when another one dies, and kills it a second later if it lives then.
+TEST_F(FaultsOverRanks, ThatAreASignalToTheFirstRankLeaveResultsOfTiles) {
+  const std::string scratch = in("signalled");
+  std::filesystem::create_directories(scratch);
+  const ToolRun run =
+      disturbed("scratch=" + scratch + "; " + stages[2].until,
+                "ls -d $scratch/*/* >$scratch/ls; kill -TERM $(echo $ranks | cut -d ' ' -f 1)", scratch);
+  EXPECT_NE(run.exit_code, 99) << "too late";
+  EXPECT_NE(run.exit_code, 0);
+  EXPECT_TRUE(std::filesystem::is_empty(in("out")));
+  std::ifstream finished(scratch + "/ls");
+  for (std::string file; std::getline(finished, file);) EXPECT_TRUE(std::filesystem::exists(file)) << file;
+  std::filesystem::remove(scratch + "/ls");
+  EXPECT_TRUE(has_results(scratch));
+  expect_resumed(scratch, true);
 }
 
 TEST_F(FaultsOverRanks, ThatAreAFullDiskOfOneRankAreSaidOnceAndCanBeResumed) {
@@ -398,6 +415,7 @@ TEST_F(FaultsOverRanks, ThatAreNoRoomForTheResultAreSaidOnce) {
                 "for rank in $ranks; do prlimit --fsize=2000000 --pid $rank; done", scratch, "result.obj", "0.001%");
   expect_refused_together(run);
   EXPECT_NE(run.err.find("result.obj"), std::string::npos) << run.err;
+  EXPECT_TRUE(has_results(scratch));
 }
 
 /// Each rank writes a share of a PLY; that of the last one does not fit.
@@ -409,6 +427,7 @@ TEST_F(FaultsOverRanks, ThatAreNoRoomForTheShareOfARankAreSaidOnce) {
                 "prlimit --fsize=1300000 --pid $(echo $ranks | cut -d ' ' -f 3)", scratch, "result.ply", "0.001%");
   expect_refused_together(run);
   EXPECT_NE(run.err.find("result.ply: cannot write: File too large"), std::string::npos) << run.err;
+  EXPECT_TRUE(has_results(scratch));
 }
 
 /// Open MPI itself needs files of more than 4 MB.

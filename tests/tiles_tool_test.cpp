@@ -207,7 +207,7 @@ TemporaryFolder* TileScratch::folder_ = nullptr;
 TEST_F(TileScratch, IsEmptyAfterARunThatEnds) {
   ASSERT_EQ(simplify("kept.ply", {"--scratch", in("ends")}).exit_code, 0);
   EXPECT_EQ(content_of(in("kept.ply")), content_of(in("whole.ply")));
-  EXPECT_TRUE(std::filesystem::is_empty(in("ends")));
+  EXPECT_FALSE(std::filesystem::exists(in("ends"))) << "the run made it";
 }
 
 TEST_F(TileScratch, GoesWithACertificateThatVerifies) {
@@ -215,7 +215,7 @@ TEST_F(TileScratch, GoesWithACertificateThatVerifies) {
   const ToolRun run =
       run_tool(VERIFY_CERTIFICATE, {in("torus.ply"), in("kept.ply"), in("kept.cert"), "--tolerance", "0.3%"});
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
-  EXPECT_TRUE(std::filesystem::is_empty(in("ends")));
+  EXPECT_FALSE(std::filesystem::exists(in("ends"))) << "the run made it";
 }
 
 TEST_F(TileScratch, ResultIsCertifiedByItsMeasurementToo) {
@@ -259,7 +259,7 @@ TEST_F(TileScratch, IsOfOneRunAtATime) {
     EXPECT_NE(run.err.find("--scratch: another run of the same mesh and options"), std::string::npos) << run.err;
     EXPECT_FALSE(std::filesystem::exists(in("second.ply")));
     EXPECT_TRUE(content_of(in("first.ply")) == content_of(in("whole.ply")));
-    EXPECT_TRUE(std::filesystem::is_empty(scratch));
+    EXPECT_FALSE(std::filesystem::exists(scratch)) << "the first run made it";
   }
 }
 
@@ -300,6 +300,25 @@ TEST_F(TileScratch, ThatIsFullEndsTheRunInOneLineAndCanBeResumed) {
   const ToolRun resumed = simplify("full.ply", {"--scratch", in("full"), "--resume"});
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_EQ(content_of(in("full.ply")), content_of(in("whole.ply")));
+}
+
+/// All tiles are finished by then.
+TEST_F(TileScratch, StaysUntilTheResultHasBeenWritten) {
+  const std::string in_mesh = in("torus.ply"), scratch = in("no room");
+  const ToolRun run = meshbound::testing_tools::run_shell(
+      meshbound::testing_tools::command_line(
+          SIMPLIFY_WITH_BOUND, {in_mesh, "-", "--format", "ply", "--tolerance", "0.3%", "--memory", "4G", "--threads",
+                                "1", "--tile-triangles", "1000", "--scratch", scratch}) +
+      " <" + in_mesh + " >/dev/full");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  ASSERT_TRUE(std::filesystem::exists(scratch)) << run.err;
+  const std::size_t tiles = files(scratch).size();
+  const ToolRun resumed = simplify("room.ply", {"--scratch", scratch, "--resume"});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(reused(resumed), tiles);
+  EXPECT_GT(tiles, 0u);
+  EXPECT_EQ(content_of(in("room.ply")), content_of(in("whole.ply")));
 }
 
 }  // namespace tiles_tool_test

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/sha256.h"
+#include "common/signals.h"
 #include "mesh/atomic_file.h"
 #include "mesh/file_bytes.h"
 #include "meshbound/error.h"
@@ -119,14 +120,14 @@ std::string decimation_key(const StoredMesh& original, const SimplifyOptions& op
   return sha256(bytes.take());
 }
 
-TileScratch::TileScratch(const std::filesystem::path& folder, std::string key, bool resumes, bool owns)
-    : folder_(folder / ("meshbound-" + key.substr(0, 16))), key_(std::move(key)), owns_(owns) {
+TileScratch::TileScratch(const std::filesystem::path& folder, std::string key, bool resumes, ScratchOwner owner)
+    : folder_(folder / ("meshbound-" + key.substr(0, 16))), key_(std::move(key)), owner_(owner) {
   std::error_code error;
   const auto make = [&error](const std::filesystem::path& path) {
     std::filesystem::create_directories(path, error);
     if (error) throw IoError("--scratch: cannot make " + path.string() + ": " + error.message());
   };
-  if (owns_) {
+  if (owner_ != ScratchOwner::AnotherRank) {
     make(folder);
     lock_.emplace(folder_.string() + ".lock");
     if (!lock_->is_held())
@@ -135,11 +136,12 @@ TileScratch::TileScratch(const std::filesystem::path& folder, std::string key, b
   }
   if (!resumes) std::filesystem::remove_all(folder_, error);
   make(folder_);
-  if (owns_) listed_.emplace_back(folder_);
+  if (owner_ == ScratchOwner::ThisProcess) listed_.emplace_back(folder_);
 }
 
 TileScratch::~TileScratch() {
-  if (!owns_) return;
+  const bool is_left = is_kept_ || (owner_ == ScratchOwner::FirstRank && interrupted());
+  if (is_left || owner_ == ScratchOwner::AnotherRank) return;
   std::error_code ignored;
   std::filesystem::remove_all(folder_, ignored);
 }
@@ -170,7 +172,7 @@ void TileScratch::store(std::size_t stage, std::size_t job, std::string_view byt
   file.write(checksum_of(stage, job, bytes));
   file.write(bytes);
   file.commit();
-  if (!owns_) return;
+  if (owner_ != ScratchOwner::ThisProcess) return;
   const std::lock_guard lock(mutex_);
   listed_.emplace_front(file_of(stage, job));
 }
@@ -179,13 +181,8 @@ Decimated decimate_in_tiles(const StoredMesh& original, const SimplifyOptions& o
                             JobRunner& runner, std::optional<TileScratch>& scratch) {
   if (!scratch) return {meshbound::decimate_in_tiles(original, options, tiles, runner), 0};
   ScratchRunner with_scratch(runner, *scratch);
-  try {
-    SimplifyResult result = meshbound::decimate_in_tiles(original, options, tiles, with_scratch);
-    return {std::move(result), with_scratch.reused()};
-  } catch (const IoError&) {  // of files of this run: nothing else is written or read
-    scratch->keep();
-    throw;
-  }
+  SimplifyResult result = meshbound::decimate_in_tiles(original, options, tiles, with_scratch);
+  return {std::move(result), with_scratch.reused()};
 }
 
 }  // namespace meshbound::tools

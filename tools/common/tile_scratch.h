@@ -25,14 +25,21 @@ void pack_tile_options(CompactWriter& to, const SimplifyOptions& options);
 [[nodiscard]] std::string decimation_key(const StoredMesh& original, const SimplifyOptions& options,
                                          const std::string& driver, const TileOptions& tiles);
 
+/// Which process removes a scratch folder at the end of a run.
+enum class ScratchOwner {
+  ThisProcess,  ///< the only one that works there: also where a signal ends it
+  FirstRank,    ///< this one, the first of several: a signal leaves the folder, as mpirun sends one when a rank dies
+  AnotherRank
+};
+
 /// Results of finished tiles in a folder, from which a run that was killed is resumed. Each file stands for one tile,
 /// is there whole or not at all, and says with a checksum whose result it is: any other file counts as none.
 class TileScratch {
  public:
   /// Uses the folder `key` in `folder`, which is made if needed. Unless `resumes`, what an earlier run left there is
-  /// removed first. `owns`: the destructor removes it, unless `keep` was called, and no other process may own it
+  /// removed first. The destructor of its owner removes it, unless `keep` was called, and no other process may own it
   /// meanwhile. Throws `IoError`, also where another one owns it.
-  TileScratch(const std::filesystem::path& folder, std::string key, bool resumes, bool owns);
+  TileScratch(const std::filesystem::path& folder, std::string key, bool resumes, ScratchOwner owner);
   ~TileScratch();
   TileScratch(const TileScratch&) = delete;
   TileScratch& operator=(const TileScratch&) = delete;
@@ -42,7 +49,7 @@ class TileScratch {
   /// Throws `IoError`.
   void store(std::size_t stage, std::size_t job, std::string_view bytes);
   /// For a run that ends as there was no room for a result: it can be resumed.
-  void keep() { owns_ = false; }
+  void keep() { is_kept_ = true; }
 
  private:
   [[nodiscard]] std::filesystem::path file_of(std::size_t stage, std::size_t job) const;
@@ -50,7 +57,8 @@ class TileScratch {
 
   std::filesystem::path folder_;
   std::string key_;
-  bool owns_;
+  ScratchOwner owner_;
+  bool is_kept_ = false;
   std::optional<FileLock> lock_;  ///< of the owner, beside the folder
   std::mutex mutex_;
   std::deque<TemporaryName> listed_;  ///< what a signal removes: the folder, then the files
@@ -62,7 +70,7 @@ struct Decimated {
 };
 
 /// As `decimate_in_tiles`, but takes results of tiles that the scratch folder has, if there is one, and stores those
-/// that it has not. Where a disk is full the folder stays.
+/// that it has not.
 [[nodiscard]] Decimated decimate_in_tiles(const StoredMesh& original, const SimplifyOptions& options,
                                           const TileOptions& tiles, JobRunner& runner,
                                           std::optional<TileScratch>& scratch);

@@ -3,7 +3,6 @@
 
 #include <cstdlib>
 
-#include "common/tile_scratch.h"
 #include "mesh/writers.h"
 #include "meshbound/error.h"
 #include "tiles/certificate_in_tiles.h"
@@ -22,6 +21,11 @@ StoreSpace space_of(const TileSetting& setting) {
   return {folder != nullptr && *folder != '\0' ? folder : "/var/tmp"};
 }
 
+TileWorkers::TileWorkers(const TileSetting& setting) {
+  if (!setting.scratch.empty()) scratch_folder_.emplace(setting.scratch);
+  space_ = space_of(setting);
+}
+
 void TileWorkers::write(AtomicFile& file, const std::filesystem::path& path, const TriangleMesh& mesh,
                         const WriteOptions& options) {
   write_mesh(file, path, rounded_for(path, mesh, options), options);
@@ -34,12 +38,11 @@ MeshFile LocalTileWorkers::read(const std::string& path, const StopToken& stop, 
 
 SimplifyResult LocalTileWorkers::decimate(const StoredMesh& original, const SimplifyOptions& options) {
   ThreadRunner threads(options.threads);
-  std::optional<TileScratch> scratch;
   if (!setting_.scratch.empty())
-    scratch.emplace(setting_.scratch,
-                    decimation_key(original, options, setting_.driver + " " + setting_.cost, setting_.tiles),
-                    setting_.resumes, true);
-  auto [result, reused] = decimate_in_tiles(original, options, setting_.tiles, threads, scratch);
+    tile_scratch_.emplace(setting_.scratch,
+                          decimation_key(original, options, setting_.driver + " " + setting_.cost, setting_.tiles),
+                          setting_.resumes, ScratchOwner::ThisProcess);
+  auto [result, reused] = decimate_in_tiles(original, options, setting_.tiles, threads, tile_scratch_);
   reused_tiles_ += reused;
   return std::move(result);
 }

@@ -3,6 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "common/output_folder.h"
+#include "common/tile_scratch.h"
 #include "mesh/atomic_file.h"
 #include "mesh/readers.h"
 #include "mesh/stored_mesh.h"
@@ -31,7 +33,8 @@ struct TileSetting {
 /// Who works on the tiles of meshes: this process alone, or all ranks of a parallel run. Called from one thread.
 class TileWorkers {
  public:
-  explicit TileWorkers(const StoreSpace& space) : space_(space) {}
+  /// Makes the folder of `scratch`, which is removed at the end if it is empty then. Throws as `space_of`.
+  explicit TileWorkers(const TileSetting& setting);
   TileWorkers(const TileWorkers&) = delete;
   TileWorkers& operator=(const TileWorkers&) = delete;
   virtual ~TileWorkers() = default;
@@ -58,23 +61,34 @@ class TileWorkers {
   [[nodiscard]] virtual std::optional<Certificate> certify(const StoredMesh& original, const StoredMesh& simplified,
                                                            double tolerance, const CertificateOptions& options) = 0;
 
+  /// For a run that ends as there is no room for what it writes: the results of tiles stay in the scratch folder, and a
+  /// later run goes on from them.
+  void keep_tiles() {
+    if (tile_scratch_) tile_scratch_->keep();
+  }
+  /// Removes the results of tiles from the scratch folder. Else the destructor does: they are of use as long as the
+  /// result does not stand.
+  void drop_tiles() { tile_scratch_.reset(); }
+
   /// Tiles whose results the decimations so far took from the scratch folder.
   [[nodiscard]] std::size_t reused_tiles() const { return reused_tiles_; }
 
   /// What they have told one another so far; absent for one process.
   [[nodiscard]] virtual std::optional<CommunicationReport> communication() = 0;
 
+ private:
+  std::optional<OutputFolder> scratch_folder_;
+  StoreSpace space_;
+
  protected:
   std::size_t reused_tiles_ = 0;
-
- private:
-  StoreSpace space_;
+  std::optional<TileScratch> tile_scratch_;  ///< of the last decimation; in the folder above, so it goes before that
 };
 
 /// The threads of this process.
 class LocalTileWorkers : public TileWorkers {
  public:
-  explicit LocalTileWorkers(const TileSetting& setting) : TileWorkers(space_of(setting)), setting_(setting) {}
+  explicit LocalTileWorkers(const TileSetting& setting) : TileWorkers(setting), setting_(setting) {}
   [[nodiscard]] MeshFile read(const std::string& path, const StopToken& stop, MeshInSpace& into,
                               const FileWindow::Reader& reader) override;
   [[nodiscard]] SimplifyResult decimate(const StoredMesh& original, const SimplifyOptions& options) override;

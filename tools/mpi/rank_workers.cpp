@@ -251,7 +251,7 @@ class Follower {
     const StoredMesh& original = mesh(from);
     const std::string folder(from.text()), key(from.text());
     std::optional<TileScratch> scratch;
-    if (!key.empty()) scratch.emplace(folder, key, true, false);
+    if (!key.empty()) scratch.emplace(folder, key, true, ScratchOwner::AnotherRank);
     const Decimated decimated = decimate_together(ranks_, original, options, tiles, scratch);
     ranks_.do_together(
         [&] { meshes_.push_back(std::make_unique<MeshInSpace>(space_in(folder), decimated.result.last().mesh)); });
@@ -291,7 +291,7 @@ class Follower {
 }  // namespace
 
 RankWorkers::RankWorkers(Communicator& ranks, const TileSetting& setting)
-    : TileWorkers(space_of(setting)), ranks_(ranks), setting_(setting) {}
+    : TileWorkers(setting), ranks_(ranks), setting_(setting) {}
 
 void RankWorkers::limit_memory(std::uint64_t bytes) {
   CompactWriter message = command(Command::LimitMemory);
@@ -337,13 +337,13 @@ SimplifyResult RankWorkers::decimate(const StoredMesh& original, const SimplifyO
       setting_.scratch.empty()
           ? ""
           : decimation_key(original, options, setting_.driver + " " + setting_.cost, setting_.tiles);
-  std::optional<TileScratch> scratch;  // made, and removed, by this rank alone
-  if (!key.empty()) scratch.emplace(setting_.scratch, key, setting_.resumes, true);
+  const ScratchOwner owner = ranks_.size() > 1 ? ScratchOwner::FirstRank : ScratchOwner::ThisProcess;
+  if (!key.empty()) tile_scratch_.emplace(setting_.scratch, key, setting_.resumes, owner);
   message.text(setting_.scratch);
   message.text(key);
   tell(ranks_, message);
   return together(ranks_, [&] {
-    auto [result, reused] = decimate_together(ranks_, original, options, setting_.tiles, scratch);
+    auto [result, reused] = decimate_together(ranks_, original, options, setting_.tiles, tile_scratch_);
     ranks_.do_together([&] { checksum_of_result_ = checksum_of(result.last().mesh); });
     number_of_result_ = shared_++;
     reused_tiles_ += reused;

@@ -364,6 +364,7 @@ void Run::publish() {
   if (verdict_ == Verdict::Within) {
     for (GatedOutput& output : outputs_) output.publish();
     for (AtomicFile& certificate : certificates_) certificate.commit();
+    if (options_.workers != nullptr) options_.workers->drop_tiles();
   }
   if (report_.deviation) deviation_->publish();
   if (json) json->publish();
@@ -395,7 +396,12 @@ bool Run::ended_by_time() const {
 
 int run_simplify(const SimplifyArguments& options) {
   if (!options.memory.empty()) limit_memory(parse_memory("--memory", options.memory));
-  return Run(options)();
+  try {
+    return Run(options)();
+  } catch (const IoError&) {  // such as a full disk
+    if (options.workers != nullptr) options.workers->keep_tiles();
+    throw;
+  }
 }
 
 }  // namespace meshbound::tools
