@@ -101,6 +101,7 @@ ToolRun run_and_interrupt(const std::string& command, int signal) {
       command + " >" + shell_quoted(folder / "out") + " 2>" + shell_quoted(folder / "err") + " </dev/null";
   const pid_t process = fork();
   if (process == 0) {
+    std::signal(signal, SIG_DFL);  // a shell that runs the tests in the background ignores SIGINT
     execl("/bin/sh", "sh", "-c", redirected.c_str(), static_cast<char*>(nullptr));
     _exit(127);
   }
@@ -210,6 +211,22 @@ TEST(Faults, AFullStandardOutputIsSaid) {
         run_shell(command_line(HAUSDORFF_DISTANCE, {folder / "in.off", folder / "in.off"}) + json + " >/dev/full");
     EXPECT_EQ(run.exit_code, 2);
     EXPECT_EQ(line_count(run.err), 1) << run.err;
+    EXPECT_NE(run.err.find("standard output"), std::string::npos) << run.err;
+  }
+}
+
+TEST(Faults, AFullStandardOutputOfTextOrAMeshIsSaid) {
+  const test::TemporaryFolder folder;
+  write_mesh(folder / "in.off", datasets::icosphere(1, 2));
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"--help"},
+                                             {"--version"},
+                                             {"--completion", "bash"},
+                                             {folder / "in.off", "-", "--format", "off", "--tolerance", "1%"}}) {
+    const ToolRun run = run_shell(command_line(SIMPLIFY_WITH_BOUND, arguments) + " >/dev/full");
+    EXPECT_EQ(run.exit_code, 2) << arguments[0];
+    EXPECT_EQ(line_count(run.err), 1) << run.err;
+    EXPECT_EQ(run.err.find("simplify_with_bound: "), 0u) << run.err;
     EXPECT_NE(run.err.find("standard output"), std::string::npos) << run.err;
   }
 }

@@ -82,6 +82,36 @@ TEST_F(StandardStreams, HoldAMeshToMeasure) {
   }
 }
 
+/// The next file that is opened must not take the place of a closed one, and then be what text is printed to.
+TEST_F(StandardStreams, MayBeClosed) {
+  ASSERT_EQ(shell("\"$simplify\" in.off file.off --tolerance 0.01").exit_code, 0);
+  for (const std::string closed : {">&-", "2>&-", "<&- >&- 2>&-"}) {
+    for (const std::string wanted : {"--quiet", "", "--json -"}) {
+      std::filesystem::remove(in("out.off"));
+      const ToolRun run = shell("\"$simplify\" in.off out.off --tolerance 0.01 " + wanted + " " + closed);
+      const bool prints_to_nothing = closed != "2>&-" && wanted != "--quiet";
+      EXPECT_EQ(run.exit_code, prints_to_nothing ? 2 : 0) << wanted << closed << run.err;
+      if (closed == ">&-" && prints_to_nothing) {
+        EXPECT_NE(run.err.find("cannot write to standard output"), std::string::npos) << run.err;
+      }
+      const bool is_refused = closed != "2>&-" && wanted == "--json -";  // before any work
+      EXPECT_EQ(std::filesystem::exists(in("out.off")), !is_refused) << wanted << closed;
+      if (!is_refused) {
+        EXPECT_EQ(content_of(in("out.off")), content_of(in("file.off"))) << wanted << closed;
+      }
+    }
+  }
+}
+
+TEST_F(StandardStreams, MayBeClosedInABatch) {
+  ASSERT_EQ(shell("\"$simplify\" in.off file.off --tolerance 0.01").exit_code, 0);
+  const ToolRun run = shell(
+      "mkdir models && cp in.off models && \"$simplify\" --batch models --output-dir out --tolerance 0.01 --quiet <&- "
+      ">&- 2>&-");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(content_of(in("out/in.off")), content_of(in("file.off")));
+}
+
 TEST_F(StandardStreams, AreRefusedWhereTheyCannotBeUsed) {
   expect_refused("\"$simplify\" - out.ply --tolerance 1", "IN is standard input: say its format");
   expect_refused("\"$simplify\" in.off - --tolerance 1", "OUT is standard output: say its format");

@@ -6,7 +6,6 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
@@ -17,7 +16,6 @@
 #include "common/mesh_input.h"
 #include "common/progress.h"
 #include "common/sha256.h"
-#include "common/tool_main.h"
 #include "datasets/analytic_meshes.h"
 #include "json_claims.h"
 #include "meshbound/distance.h"
@@ -218,11 +216,6 @@ TEST_F(ToolConventions, ReadingEndsByTheTimeLimit) {
   const StopToken late{.deadline = StopToken::Clock::now()};
   EXPECT_THROW((void)tools::read_input(in("in.off"), true, report, late), Stopped);
   EXPECT_EQ(tools::read_input(in("in.off"), true, report, {}).triangles.size(), 1280u);
-  CLI::App app("", "tool");
-  const char* const arguments[] = {"tool"};
-  testing::internal::CaptureStderr();
-  EXPECT_EQ(tools::tool_main(app, 1, arguments, []() -> int { throw Stopped("in.off: the time limit came"); }), 3);
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "tool: in.off: the time limit came; nothing was written\n");
 }
 
 bool all_floats(const TriangleMesh& mesh) {

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <random>
 #include <string>
 #include <utility>
 
@@ -20,10 +22,13 @@ namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 20;  // bytes: large enough that system calls cost nothing
 
-/// A name in `folder` that no other process or thread uses, short enough for every file system.
+/// A name in `folder` that no other process or thread uses, short enough for every file system. The number of the
+/// process is for readers alone: processes of different containers or machines may have the same one, and a process
+/// that was killed may have left files.
 std::filesystem::path temporary_name(const std::filesystem::path& folder) {
-  static std::atomic<unsigned> counter{0};
-  return folder / (".meshbound-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
+  std::random_device random;
+  const std::uint64_t digits = std::uint64_t{random()} << 32 | random();
+  return folder / (".meshbound-" + std::to_string(::getpid()) + "-" + std::to_string(digits) + ".tmp");
 }
 
 /// Gives the new file the owner and permissions of the replaced one. File systems without them let these calls fail,
@@ -125,7 +130,8 @@ void AtomicFile::complete() {
   flush();
   buffer_.reset();
   const bool has_no_name = !staged_.empty() && temporary_.empty();
-  if (::close(has_no_name ? ::dup(fd_) : std::exchange(fd_, -1)) != 0) fail(errno);
+  const int closed = has_no_name ? ::fcntl(fd_, F_DUPFD_CLOEXEC, 0) : std::exchange(fd_, -1);
+  if (closed < 0 || ::close(closed) != 0) fail(errno);
 }
 
 void AtomicFile::commit() {

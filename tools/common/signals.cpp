@@ -67,9 +67,8 @@ void watch_interrupts(const std::string& tool) {
   last_line_size = std::min(line.size(), last_line.size());
   std::copy_n(line.data(), last_line_size, last_line.data());
   handle(SIGALRM, end_process);
-  handle(SIGINT, note_interrupt);
-  handle(SIGTERM, note_interrupt);
-  if (!is_ignored(SIGHUP)) handle(SIGHUP, note_interrupt);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    if (!is_ignored(signal)) handle(signal, note_interrupt);
 }
 
 const std::atomic<bool>& interrupted() { return flag; }

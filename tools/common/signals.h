@@ -5,7 +5,7 @@
 
 namespace meshbound::tools {
 
-/// From here on SIGINT, SIGTERM and SIGHUP (unless it is ignored, as under nohup) set the flag of `interrupted`, so
+/// From here on SIGINT, SIGTERM and SIGHUP, unless they are ignored, as under nohup, set the flag of `interrupted`, so
 /// that the tool can say what it has proven and end. If it has not ended by itself `grace` seconds later, whatever it
 /// is doing, its unfinished files are removed, one line that begins with `tool` goes to stderr, and the process exits
 /// with `ExitBadInput`. Further signals change nothing.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/standard_streams.h"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <unistd.h>
 
@@ -53,11 +54,19 @@ std::string with_stream_names(std::string message) {
     replace_all(message, std::string(input_device) + "/mesh." + format, "standard input");
     replace_all(message, std::string(output_device) + "/mesh." + format, "standard output");
   }
+  // What `device_of` returns, where a file is named that cannot be written.
+  if (const std::string device = std::string(output_device) + ":"; message.starts_with(device))
+    message.replace(0, device.size(), "standard output:");
   return message;
 }
 
 std::filesystem::path device_of(const std::filesystem::path& path) {
   return is_stream_path(path) ? path.parent_path() : path;
+}
+
+void occupy_standard_streams() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(descriptor, F_GETFD) < 0 && ::open("/dev/null", O_PATH) < 0) ::open("/", O_PATH);
 }
 
 std::string read_standard_input(const StopToken& stop) {

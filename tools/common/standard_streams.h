@@ -38,6 +38,10 @@ void add_stream_format(CLI::App& app, const std::string& name, std::string& form
 /// The file or device that is written to for `path`.
 [[nodiscard]] std::filesystem::path device_of(const std::filesystem::path& path);
 
+/// Has something stand on descriptors 0 to 2 that nothing can be read from or written to, where they are closed: else
+/// the next file that is opened would be taken for standard output. To be called before any file is opened.
+void occupy_standard_streams();
+
 /// Everything on standard input. Throws `Interrupted` and `Stopped` as `stop` says, `IoError`. O(size).
 [[nodiscard]] std::string read_standard_input(const StopToken& stop);
 

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <numeric>
 #include <utility>
@@ -48,11 +49,24 @@ std::terminate_handler default_terminate = nullptr;
 /// Sets the handler when the program is loaded.
 [[maybe_unused]] const bool has_handler = (default_terminate = std::set_terminate(end_without_memory), true);
 
+/// From here on the tool ends by itself: a signal that comes, or came before, neither adds a line nor changes the exit
+/// code, however long it takes to free the memory.
+void begin_ending() { static const UninterruptedScope ending; }
+
 int complain(const CLI::App& app, std::string message, ExitCode code = ExitBadInput) {
+  begin_ending();
   message = with_stream_names(std::move(message));
   std::replace(message.begin(), message.end(), '\n', ' ');
   std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), message.c_str());
   return code;
+}
+
+/// Returns `code` if everything that was printed has reached standard output.
+int conclude(const CLI::App& app, int code) {
+  begin_ending();
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return code;
+  return complain(app, std::string("cannot write to standard output: ") + std::strerror(errno));
 }
 
 /// Number of letters to insert, delete or replace to turn `a` into `b`, at least.
@@ -169,6 +183,7 @@ void add_examples(CLI::App& app, const std::vector<std::string>& command_lines) 
 }
 
 int tool_main(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
+  occupy_standard_streams();
   limit_omp_spin();
   remember_command_line(app.get_name(), argc, argv);
   ignore_write_signals();
@@ -177,18 +192,16 @@ int tool_main(CLI::App& app, int argc, const char* const* argv, const std::funct
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& printed) {
-    return app.exit(printed);
+    return conclude(app, app.exit(printed));
   } catch (const CLI::ParseError& error) {
     return complain(app, std::string(error.what()) + suggestion(app) + " (see --help)");
   } catch (const InvalidInput& error) {
     return complain(app, error.what());
   }
   try {
-    const int code = run();
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-      return complain(app, std::string("cannot write to standard output: ") + std::strerror(errno));
-    return code;
+    return conclude(app, run());
   } catch (const Stopped& stopped) {
+    if (interrupted()) return complain(app, "interrupted; nothing was written");
     return complain(app, std::string(stopped.what()) + "; nothing was written", ExitUndecided);
   } catch (const std::bad_alloc&) {
     return complain(app, out_of_memory(app.get_name()));

@@ -9,6 +9,7 @@
 #include "common/memory.h"
 #include "common/omp_spin.h"
 #include "common/signals.h"
+#include "common/standard_streams.h"
 #include "mpi/rank_workers.h"
 
 namespace meshbound::tools {
@@ -39,6 +40,7 @@ std::optional<int> run_rank(mpi::Communicator& ranks, const std::string& tool,
 }  // namespace
 
 int mpi_main(int argc, char** argv, const std::string& tool, const std::function<int(mpi::Communicator&)>& run) {
+  occupy_standard_streams();
   limit_omp_spin();
   ignore_write_signals();
   int provided = 0;
