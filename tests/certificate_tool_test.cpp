@@ -293,6 +293,12 @@ TEST_F(CertificateTools, AnyTwoMeshesCanBeCertified) {
   EXPECT_EQ(file_count(), before);
 }
 
+TEST_F(CertificateTools, WriteNoDocumentUnderTheNameOfAMesh) {
+  const ToolRun run = verify("torus.off", "torus.off", "c", {"--json", in("other.ply")});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("has the name of a mesh"), std::string::npos) << run.err;
+}
+
 /// The decision itself needs no time where the meshes are the same.
 TEST_F(CertificateTools, SaysThatTheTimeLimitLeftTheCertificateUndone) {
   const ToolRun run = run_tool(HAUSDORFF_DISTANCE, {in("torus.off"), in("torus.off"), "--tolerance", "1", "--json", "-",

@@ -249,6 +249,7 @@ void declare(CLI::App& app, Options& options) {
   app.add_option_function<std::string>(
          "--json", [&options](const std::string& file) { options.json = file.empty() ? "-" : file; },
          "Write the result as JSON to a file; '-' or nothing: to stdout, and nothing else there")
+      ->check(no_mesh_name)
       ->type_name("[FILE]")
       ->expected(0, 1);
   app.footer("Exit codes: 0 proven, 1 rejected, 2 bad usage or files that cannot be read.");
