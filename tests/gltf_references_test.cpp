@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What extensions and pointers of a document refer to is still what they mean once triangles are others.
 #include "mesh/gltf_references.h"
-#include "meshbound/error.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +10,7 @@
 
 #include "gltf_fixture.h"
 #include "mesh/gltf_levels.h"
+#include "meshbound/error.h"
 #include "run_tool.h"
 
 namespace meshbound {

@@ -375,7 +375,7 @@ void Run::tell() {
   if (verdict_ == Verdict::Within && !is_stdout_taken && !options_.common.quiet) {
     const bool is_rounded = result_.last().ended_by == EndedBy::Rounding;
     print_summary({options_, report_, result_, outputs_, decided_by_, ended_by_time(), diagonal_,
-                   is_rounded ? rounding_reason(out, report_.tolerance) : ""});
+                   is_rounded ? rounding_reason(outputs_.back(), report_.tolerance) : ""});
   }
   if (verdict_ == Verdict::Within && ended_by_time())
     std::fprintf(stderr, "%s: the time limit came first: %s is the best mesh that was proven by then\n",
