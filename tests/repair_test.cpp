@@ -51,11 +51,13 @@ TEST(Repair, GivesTheLinesBackThatEachChangeHasFound) {
 }
 
 TEST(EditLog, KeepsTheTexturesOfEachChangeWhenItIsAppended) {
-  const auto log_of = [](std::vector<std::vector<std::uint32_t>> faces_of_edits) {
+  const Eigen::Vector2d corner(0.5, 0.25);
+  const CornerCoordinates somewhere = {corner, corner, corner};
+  const auto log_of = [&](std::vector<std::vector<std::uint32_t>> faces_of_edits) {
     EditLog log;
     for (const auto& faces : faces_of_edits) {
       log.edits.emplace_back();
-      for (const std::uint32_t f : faces) log.textures.push_back({f, {}});
+      for (const std::uint32_t f : faces) log.textures.push_back({f, somewhere});
       log.textures_end.push_back(log.textures.size());
     }
     return log;
