@@ -286,16 +286,18 @@ void ManifoldBuilder::cut_all(const Crowd& crowd) {
     if (at(result_.twin, crowds_[i]) != no_index) cut(crowds_[i]);
 }
 
-/// Whether two edges of it that are no twins have the same ends, by `fan_`.
+/// Whether two edges of it that are no twins have the same ends, by `fan_`. O(n log n).
 bool ManifoldBuilder::meets_itself(const Crowd& crowd) const {
+  std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> edges;  // lower end, higher end, corner
   for (std::uint32_t i = crowd.begin; i < crowd.end; ++i) {
-    const std::uint32_t a = crowds_[i];
-    for (std::uint32_t j = i + 1; j < crowd.end; ++j) {
-      const std::uint32_t b = crowds_[j];
-      if (at(result_.twin, a) != b &&
-          std::minmax(at(fan_, a), at(fan_, next(a))) == std::minmax(at(fan_, b), at(fan_, next(b))))
-        return true;
-    }
+    const auto [low, high] = std::minmax({at(fan_, crowds_[i]), at(fan_, next(crowds_[i]))});
+    edges.emplace_back(low, high, crowds_[i]);
+  }
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    const auto& [low, high, corner] = edges[i];
+    const auto& [next_low, next_high, next_corner] = edges[i + 1];
+    if (low == next_low && high == next_high && at(result_.twin, corner) != next_corner) return true;
   }
   return false;
 }
