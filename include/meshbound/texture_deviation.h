@@ -67,7 +67,7 @@ struct TextureDeviationOptions {
 struct TextureWitness {
   SurfacePoint from;     ///< on the mesh that is measured
   SurfacePoint nearest;  ///< on the other one
-  /// Of both; aligned as in `TexturedTriangle`.
+  /// The texture coordinate that both points have; aligned as in `TexturedTriangle`.
   alignas(16) Eigen::Vector2d coordinate = Eigen::Vector2d::Zero();
   double distance = 0;  ///< the length between the two, rounded to nearest
 };

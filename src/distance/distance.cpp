@@ -39,7 +39,7 @@ Eigen::AlignedBox3d placed_box(const PlacedModel& model) {
   return box;
 }
 
-/// Of a measurement; its limit of time is checked with it.
+/// The tolerance that a measurement must decide about, infinite where none is given. Checks the limit of time, too.
 double tolerance_of(const DistanceOptions& options) {
   (void)checked_seconds(options.budget.seconds);
   return checked(options.tolerance.value_or(std::numeric_limits<double>::infinity()), "the tolerance");

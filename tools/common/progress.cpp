@@ -25,7 +25,7 @@ ProgressStyle style_of(bool quiet) {
   return would_be_seen ? chosen_style : ProgressStyle::Off;
 }
 
-/// Of the terminal that shows stderr.
+/// The width of the terminal that shows stderr, in characters.
 int columns_of_terminal() {
   winsize size{};
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual_columns;

@@ -7,7 +7,8 @@
 namespace meshbound {
 namespace {
 
-/// Of the longest side of a triangle: 16 roundings of floats, which files hold. Flatter ones have no angle.
+/// Triangles of a smaller height over the edge, as a share of their longest side, have no angle: 16 roundings of
+/// floats, which files hold, may turn them.
 constexpr double min_share_of_height = 0x1p-20;
 
 double largest_of(const Eigen::Vector3d& v) { return v.cwiseAbs().maxCoeff(); }

@@ -17,7 +17,7 @@ class AngleAroundEdge {
   /// The edge runs from `from` to `to`.
   AngleAroundEdge(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen::Vector3d& zero);
 
-  /// Of the triangle with this third corner. None where it is so flat over the edge that rounding hides the angle.
+  /// The angle of the triangle with this third corner. None where it is so flat over the edge that rounding hides it.
   [[nodiscard]] std::optional<double> of(const Eigen::Vector3d& corner) const;
 
  private:
