@@ -7,7 +7,8 @@
 #include <map>
 #include <utility>
 
-#include "geometry/vec3.h"
+#include "geometry/eigen_vec3.h"
+#include "mesh/first_use.h"
 #include "numeric/no_index.h"
 
 namespace meshbound {
@@ -118,31 +119,19 @@ std::vector<TriangleNeighbours> neighbours_in_layers(const TriangleMesh& mesh, c
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     if (layers.sheet[t] != no_index) sorted.emplace_back(layers.sheet[t], t);
   std::sort(sorted.begin(), sorted.end());
-  std::vector<std::uint32_t> number(mesh.vertices.size(), no_index), taken;
+  FirstUse number(mesh.vertices.size());
   for (std::size_t i = 0, end = 0; i < sorted.size(); i = end) {
     while (end < sorted.size() && sorted[end].first == sorted[i].first) ++end;
-    std::vector<Vec3> vertices;
     std::vector<Triangle> triangles;
-    taken.clear();
-    for (std::size_t k = i; k < end; ++k) {
-      Triangle& corners = triangles.emplace_back();
-      for (std::size_t c = 0; c < 3; ++c) {
-        const std::uint32_t v = mesh.triangles[sorted[k].second][c];
-        if (number[v] == no_index) {
-          number[v] = static_cast<std::uint32_t>(vertices.size());
-          const Eigen::Vector3d& p = mesh.vertices[v];
-          vertices.push_back(Vec3{p.x(), p.y(), p.z()});
-          taken.push_back(v);
-        }
-        corners[c] = number[v];
-      }
-    }
+    for (std::size_t k = i; k < end; ++k) triangles.push_back(number(mesh.triangles[sorted[k].second]));
+    std::vector<Vec3> vertices;
+    for (const std::uint32_t v : number.used()) vertices.push_back(to_vec3(mesh.vertices[v]));
+    number.clear();
     const std::vector<TriangleNeighbours> here = edge_neighbours(vertices, triangles);
     for (std::size_t k = i; k < end; ++k)
       for (std::size_t c = 0; c < 3; ++c)
         if (const std::uint32_t other = here[k - i][c]; other != no_index)
           result[sorted[k].second][c] = sorted[i + other].second;
-    for (const std::uint32_t v : taken) number[v] = no_index;
   }
   return result;
 }
