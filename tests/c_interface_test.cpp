@@ -99,6 +99,20 @@ TEST_F(CInterface, DecidesOneSideByItsOwnBounds) {
   EXPECT_NE(distance.b_to_a.outcome, MB_NOT_SEARCHED);
 }
 
+/// The time for the trees counts.
+TEST_F(CInterface, EndsAtTheTimeLimit) {
+  auto options = defaults(mb_distance_options_init);
+  options.time_limit = 0;
+  mb_distance distance{};
+  ASSERT_EQ(mb_measure(&a_, &b_, &options, &distance), MB_OK) << mb_error_message();
+  EXPECT_EQ(distance.bounds.lower, 0);
+  EXPECT_EQ(distance.bounds.upper, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(distance.a_to_b.outcome, MB_NOT_SEARCHED);
+  mb_verdict verdict = MB_WITHIN;
+  ASSERT_EQ(mb_check(&a_, &b_, 1, &options, &verdict, nullptr), MB_OK) << mb_error_message();
+  EXPECT_EQ(verdict, MB_UNDECIDED);
+}
+
 /// Floats at a stride, at an odd address, with 16-bit indices.
 TEST_F(CInterface, ReadsBuffersOfEveryKind) {
   std::vector<char> bytes(1 + 20 * sphere_.vertices.size());

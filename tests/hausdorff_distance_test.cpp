@@ -358,10 +358,35 @@ TEST(CheckTolerance, OfMeshesEndsWithTheirTrees) {
       EXPECT_EQ(unknown.bounds.upper, std::numeric_limits<double>::infinity());
       EXPECT_EQ(unknown.a_to_b.outcome, Outcome::BudgetExhausted);
     }
+    const OneSidedDistance one_sided = one_sided_hausdorff_distance(a, b, options);
+    EXPECT_EQ(one_sided.bounds.upper, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(one_sided.outcome, Outcome::BudgetExhausted);
     EXPECT_EQ(check_tolerance(a, b, 1, options).verdict, Verdict::Undecided);
+    EXPECT_EQ(check_one_sided_tolerance(a, b, 1, options).verdict, Verdict::Undecided);
     EXPECT_EQ(checker.check(b, 1, options).verdict, Verdict::Undecided);
   }
   EXPECT_LT(checker.measure(b).bounds.upper, 10);
+}
+
+/// A sheet of two triangles inside a larger one: equally many triangles, so that they are compared without trees first.
+TEST(CheckTolerance, OfMeshesInOneDirection) {
+  const auto sheet = [](double size) {
+    TriangleMesh mesh;
+    mesh.vertices = {{0, 0, 0}, {size, 0, 0}, {size, size, 0}, {0, size, 0}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return mesh;
+  };
+  const TriangleMesh small = sheet(1), large = sheet(2);
+  EXPECT_LE(one_sided_hausdorff_distance(small, large).bounds.upper, 1e-5);
+  EXPECT_NEAR(one_sided_hausdorff_distance(large, small).bounds.lower, std::sqrt(2.0), 1e-5);
+  for (const double tolerance : {0.5, 2.0}) {  // 2: told by the corners, which correspond in order
+    const ToleranceCheck check = check_one_sided_tolerance(small, large, tolerance);
+    EXPECT_EQ(check.verdict, Verdict::Within);
+    EXPECT_EQ(check.bounds.lower, 0);
+    EXPECT_EQ(check.b_to_a.bounds.upper, std::numeric_limits<double>::infinity());
+  }
+  EXPECT_EQ(check_one_sided_tolerance(large, small, 0.5).verdict, Verdict::Exceeds);
+  EXPECT_THROW((void)check_one_sided_tolerance(small, large, -1), InvalidInput);
 }
 
 /// Early or late, before the first step or in the middle of one: several threads are at work.

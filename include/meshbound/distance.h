@@ -148,6 +148,10 @@ struct ToleranceCheck {
 [[nodiscard]] HausdorffDistance hausdorff_distance(const MeshView& a, const MeshView& b,
                                                    const DistanceOptions& options = {});
 
+/// Measures h(A, B) for two meshes where they are, as the function above measures H(A, B).
+[[nodiscard]] OneSidedDistance one_sided_hausdorff_distance(const MeshView& a, const MeshView& b,
+                                                            const DistanceOptions& options = {});
+
 /// Whether two meshes have the same triangles, bit for bit, however they number, order and turn them; -0 and 0 are one
 /// coordinate. Not where they have different numbers of triangles, even if only by repetition. Throws as `Bvh`. O(n),
 /// and hardly more than a look where the meshes differ in size.
@@ -166,6 +170,8 @@ struct ToleranceCheck {
 
 /// Decides h(A, B) <= tolerance as `check_tolerance` decides H; `b_to_a` of the result is empty.
 [[nodiscard]] ToleranceCheck check_one_sided_tolerance(const PlacedModel& a, const PlacedModel& b, double tolerance,
+                                                       const DistanceOptions& options = {});
+[[nodiscard]] ToleranceCheck check_one_sided_tolerance(const MeshView& a, const MeshView& b, double tolerance,
                                                        const DistanceOptions& options = {});
 
 }  // namespace meshbound

@@ -60,25 +60,13 @@ class LookWriter {
   const std::vector<std::uint32_t>& first_;
 };
 
-/// Whether another triangle may have the corners of one: not where two different ones lie across edges that have no
-/// third one.
-bool may_be_repeated(const TriangleNeighbours& neighbours) {
-  std::uint32_t across = no_index;
-  for (const std::uint32_t other : neighbours) {
-    if (other == no_index) continue;
-    if (across != no_index && across != other) return false;
-    across = other;
-  }
-  return true;
-}
-
 /// Triangles that may have the corners of others, sorted by their corners, then by their numbers.
 std::vector<std::pair<Corners, std::uint32_t>> candidates(const TriangleMesh& mesh,
                                                           const std::vector<std::uint32_t>& first,
                                                           std::span<const TriangleNeighbours> neighbours) {
   std::vector<std::pair<Corners, std::uint32_t>> result;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (!may_be_repeated(neighbours[t])) continue;
+    if (lies_between_two(neighbours[t])) continue;
     Corners corners{};
     for (std::size_t k = 0; k < 3; ++k) corners[k] = first[mesh.triangles[t][k]];
     std::sort(corners.begin(), corners.end());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "bvh/bvh_data.h"
 #include "distance/default_error.h"
@@ -67,6 +68,29 @@ Result measured_by_trees(const MeshView& a, const MeshView& b, const DistanceOpt
   return measure(trees->first, trees->second, after_trees(options, stop));
 }
 
+/// The distance of two meshes that needs no tree, to the error bound and the tolerance of the options; absent
+/// otherwise.
+std::optional<HausdorffDistance> measured_without_trees(const MeshView& a, const MeshView& b,
+                                                        const DistanceOptions& options) {
+  const double tolerance = tolerance_of(options);
+  if (options.error_bound) checked(*options.error_bound, "the error bound");
+  if (options.method != Method::CellWalking || a.triangle_count() != b.triangle_count()) return std::nullopt;
+  validate(a);
+  validate(b);
+  const double error_bound =
+      options.error_bound ? *options.error_bound : default_error_bound(a, b, bounding_box_diagonal(a));
+  return distance_without_trees(a, b, std::min(error_bound, tolerance));
+}
+
+/// The distance of two meshes that is at most the tolerance and needs no tree; absent otherwise.
+std::optional<HausdorffDistance> within_without_trees(const MeshView& a, const MeshView& b, double tolerance,
+                                                      const DistanceOptions& options) {
+  checked(tolerance, "the tolerance");
+  (void)checked_seconds(options.budget.seconds);
+  if (options.method != Method::CellWalking) return std::nullopt;
+  return distance_without_trees(a, b, tolerance);
+}
+
 ToleranceCheck checked_one_sided(const OneSidedTask& task) {
   ToleranceCheck check;
   check.tolerance = task.tolerance;
@@ -122,16 +146,16 @@ HausdorffDistance hausdorff_distance(const PlacedModel& a, const PlacedModel& b,
   return hausdorff_distance(a, b, options, {});
 }
 
+OneSidedDistance one_sided_hausdorff_distance(const MeshView& a, const MeshView& b, const DistanceOptions& options) {
+  if (const auto known = measured_without_trees(a, b, options)) return known->a_to_b;
+  return measured_by_trees(a, b, options, unfinished_distance().a_to_b,
+                           [](const Bvh& tree_a, const Bvh& tree_b, const DistanceOptions& rest) {
+                             return one_sided_hausdorff_distance(tree_a, tree_b, rest);
+                           });
+}
+
 HausdorffDistance hausdorff_distance(const MeshView& a, const MeshView& b, const DistanceOptions& options) {
-  const double tolerance = tolerance_of(options);
-  if (options.error_bound) checked(*options.error_bound, "the error bound");
-  if (options.method == Method::CellWalking && a.triangle_count() == b.triangle_count()) {
-    validate(a);
-    validate(b);
-    const double error_bound =
-        options.error_bound ? *options.error_bound : default_error_bound(a, b, bounding_box_diagonal(a));
-    if (auto distance = distance_without_trees(a, b, std::min(error_bound, tolerance))) return *distance;
-  }
+  if (auto known = measured_without_trees(a, b, options)) return *std::move(known);
   return measured_by_trees(a, b, options, unfinished_distance(),
                            [](const Bvh& tree_a, const Bvh& tree_b, const DistanceOptions& rest) {
                              return hausdorff_distance(tree_a, tree_b, rest);
@@ -166,13 +190,21 @@ ToleranceCheck check_tolerance(const PlacedModel& a, const PlacedModel& b, doubl
   return check_tolerance(a, b, tolerance, options, {});
 }
 
+ToleranceCheck check_one_sided_tolerance(const MeshView& a, const MeshView& b, double tolerance,
+                                         const DistanceOptions& options) {
+  if (const auto known = within_without_trees(a, b, tolerance, options))
+    return {Verdict::Within, tolerance, known->a_to_b.bounds, known->a_to_b, {}};
+  ToleranceCheck unfinished = unfinished_check(tolerance);
+  unfinished.b_to_a = {};
+  return measured_by_trees(a, b, options, std::move(unfinished),
+                           [&](const Bvh& tree_a, const Bvh& tree_b, const DistanceOptions& rest) {
+                             return check_one_sided_tolerance(tree_a, tree_b, tolerance, rest);
+                           });
+}
+
 ToleranceCheck check_tolerance(const MeshView& a, const MeshView& b, double tolerance, const DistanceOptions& options) {
-  checked(tolerance, "the tolerance");
-  (void)checked_seconds(options.budget.seconds);
-  if (options.method == Method::CellWalking) {
-    if (const auto distance = distance_without_trees(a, b, tolerance))
-      return {Verdict::Within, tolerance, distance->bounds, distance->a_to_b, distance->b_to_a};
-  }
+  if (const auto known = within_without_trees(a, b, tolerance, options))
+    return {Verdict::Within, tolerance, known->bounds, known->a_to_b, known->b_to_a};
   return measured_by_trees(a, b, options, unfinished_check(tolerance),
                            [&](const Bvh& tree_a, const Bvh& tree_b, const DistanceOptions& rest) {
                              return check_tolerance(tree_a, tree_b, tolerance, rest);

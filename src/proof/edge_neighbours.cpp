@@ -103,6 +103,16 @@ constexpr std::size_t grain = 4096;  ///< slots that a thread takes at once
 
 }  // namespace
 
+bool lies_between_two(const TriangleNeighbours& neighbours) {
+  std::uint32_t across = no_index;
+  for (const std::uint32_t other : neighbours) {
+    if (other == no_index) continue;
+    if (across != no_index && across != other) return true;
+    across = other;
+  }
+  return false;
+}
+
 std::vector<TriangleNeighbours> edge_neighbours(const Bvh& tree, std::span<const Vec3> vertices,
                                                 std::span<const Triangle> triangles, int threads) {
   CheckedNeighbours neighbours_of(tree.data(), vertices, triangles);

@@ -14,6 +14,10 @@ namespace meshbound {
 /// Of one triangle: the triangles across its edges, [k] across the edge from corner k to corner k + 1.
 using TriangleNeighbours = std::array<std::uint32_t, 3>;
 
+/// Whether two different triangles lie across edges of one that have no third triangle: a triangle with the same three
+/// corners would lie across both edges, so there is none.
+[[nodiscard]] bool lies_between_two(const TriangleNeighbours& neighbours);
+
 /// By triangle, which triangle lies across the edge from corner k to corner k + 1: the other one of an edge that has
 /// exactly two triangles, vertices at equal positions being one vertex. `no_index` for every other edge, and for all
 /// edges of a triangle that has two corners at one position. Unlike the neighbours of a tree (bvh/bvh_data.h), which

@@ -162,7 +162,7 @@ typedef struct mb_distance {
 typedef struct mb_distance_options {
   size_t struct_size;   /* set by mb_distance_options_init */
   double error_bound;   /* wanted width of the interval; negative: 1e-6 of the diagonal of A */
-  double time_limit;    /* of the search; infinite: none */
+  double time_limit;    /* of the whole call; infinite: none */
   int one_sided;        /* 1: only from A to B, whose bounds are then those of the result */
   int threads;          /* 0: as many as OpenMP has */
   mb_cancel* cancel;    /* may be NULL */

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "measurement.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "arguments.h"
 #include "guard.h"
 #include "meshbound/mesh_summary.h"
-#include "meshbound/stop_token.h"
 #include "results.h"
 
 namespace meshbound::c_interface {
@@ -32,39 +29,13 @@ HausdorffDistance only_a_to_b(OneSidedDistance direction) {
   return distance;
 }
 
-BvhOptions tree_options(const DistanceOptions& options) { return {options.threads, {.cancel = options.cancel}}; }
-
-/// The distance of two meshes if it can be found without trees, as for two copies of one mesh; absent otherwise. Within
-/// the error bound, and decided for the tolerance, if any.
-std::optional<HausdorffDistance> looked_up(const MeshView& a, const MeshView& b, const DistanceOptions& options) {
-  if (a.triangle_count() != b.triangle_count()) return std::nullopt;
-  const double tolerance = options.tolerance.value_or(std::numeric_limits<double>::infinity());
-  const double error_bound =
-      options.error_bound ? *options.error_bound : default_error_bound(a, b, bounding_box_diagonal(a));
-  return distance_without_trees(a, b, std::min(error_bound, tolerance));
-}
-
 HausdorffDistance measure(const MeshView& a, const MeshView& b, const DistanceOptions& options, bool one_sided) {
-  if (const auto known = looked_up(a, b, options)) return one_sided ? only_a_to_b(known->a_to_b) : *known;
-  const auto [tree_a, tree_b] = build_trees(a, b, tree_options(options));
-  if (one_sided) return only_a_to_b(one_sided_hausdorff_distance(tree_a, tree_b, options));
-  return hausdorff_distance(tree_a, tree_b, options);
-}
-
-/// The decision on a distance whose upper bound is at most the tolerance; of the one-sided distance, which then is too,
-/// the bounds of that direction alone.
-ToleranceCheck within(double tolerance, const HausdorffDistance& known, bool one_sided) {
-  const HausdorffDistance decided = one_sided ? only_a_to_b(known.a_to_b) : known;
-  return {Verdict::Within, tolerance, decided.bounds, decided.a_to_b, decided.b_to_a};
+  return one_sided ? only_a_to_b(one_sided_hausdorff_distance(a, b, options)) : hausdorff_distance(a, b, options);
 }
 
 ToleranceCheck check(const MeshView& a, const MeshView& b, double tolerance, const DistanceOptions& options,
                      bool one_sided) {
-  if (!(tolerance >= 0)) throw InvalidInput("the tolerance must be a length of 0 or more");
-  if (const auto known = distance_without_trees(a, b, tolerance)) return within(tolerance, *known, one_sided);
-  const auto [tree_a, tree_b] = build_trees(a, b, tree_options(options));
-  return one_sided ? check_one_sided_tolerance(tree_a, tree_b, tolerance, options)
-                   : check_tolerance(tree_a, tree_b, tolerance, options);
+  return one_sided ? check_one_sided_tolerance(a, b, tolerance, options) : check_tolerance(a, b, tolerance, options);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ def hausdorff_distance(
     error_bound: wanted width of the interval; 1e-6 of the diagonal of ``a`` where it is None.
     one_sided: only from ``a`` to ``b``.
     threads: 0 is as many as OpenMP has. Results are the same for every number.
-    time_limit: seconds of the search; the bounds that it had by then hold.
+    time_limit: seconds of the whole call; the bounds that it had by then hold.
     progress: called with the share that is done, 20 times a second; an answer that is false, except None, ends the call
         with Cancelled.
 

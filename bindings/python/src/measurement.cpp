@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -46,34 +45,13 @@ HausdorffDistance only_a_to_b(const OneSidedDistance& direction) {
   return distance;
 }
 
-std::pair<Bvh, Bvh> trees(const MeshView& a, const MeshView& b, const DistanceOptions& options) {
-  return build_trees(a, b, {options.threads, {.cancel = options.cancel}});
-}
-
 HausdorffDistance measure(const MeshView& a, const MeshView& b, bool one_sided, const DistanceOptions& options) {
-  if (a.triangle_count() == b.triangle_count()) {
-    const double limit = options.error_bound.value_or(default_error_bound(a, b, bounding_box_diagonal(a)));
-    if (const auto known = distance_without_trees(a, b, limit)) return one_sided ? only_a_to_b(known->a_to_b) : *known;
-  }
-  const auto [tree_a, tree_b] = trees(a, b, options);
-  return one_sided ? only_a_to_b(one_sided_hausdorff_distance(tree_a, tree_b, options))
-                   : hausdorff_distance(tree_a, tree_b, options);
-}
-
-/// The decision on a distance whose upper bound is at most the tolerance; of the one-sided distance, which then is too,
-/// the bounds of that direction alone.
-ToleranceCheck within(double tolerance, const HausdorffDistance& known, bool one_sided) {
-  const HausdorffDistance decided = one_sided ? only_a_to_b(known.a_to_b) : known;
-  return {Verdict::Within, tolerance, decided.bounds, decided.a_to_b, decided.b_to_a};
+  return one_sided ? only_a_to_b(one_sided_hausdorff_distance(a, b, options)) : hausdorff_distance(a, b, options);
 }
 
 ToleranceCheck check(const MeshView& a, const MeshView& b, double tolerance, bool one_sided,
                      const DistanceOptions& options) {
-  if (!(tolerance >= 0)) throw InvalidInput("the tolerance must be a length of 0 or more");
-  if (const auto known = distance_without_trees(a, b, tolerance)) return within(tolerance, *known, one_sided);
-  const auto [tree_a, tree_b] = trees(a, b, options);
-  return one_sided ? check_one_sided_tolerance(tree_a, tree_b, tolerance, options)
-                   : check_tolerance(tree_a, tree_b, tolerance, options);
+  return one_sided ? check_one_sided_tolerance(a, b, tolerance, options) : check_tolerance(a, b, tolerance, options);
 }
 
 void require_error_bound(const Request& request) {

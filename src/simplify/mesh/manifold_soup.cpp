@@ -75,14 +75,7 @@ class ManifoldBuilder {
   /// Whether another triangle may have the corners of this one: not where vertices have their positions for themselves
   /// and two different triangles lie across edges that have no third one.
   [[nodiscard]] bool may_be_repeated(std::uint32_t triangle) const {
-    if (neighbours_.empty() || has_shared(welded(triangle))) return true;
-    std::uint32_t across = no_index;
-    for (const std::uint32_t other : neighbours_[triangle]) {
-      if (other == no_index) continue;
-      if (across != no_index && across != other) return false;
-      across = other;
-    }
-    return true;
+    return neighbours_.empty() || has_shared(welded(triangle)) || !lies_between_two(neighbours_[triangle]);
   }
   [[nodiscard]] bool has_shared(const Triangle& corners) const {
     return has_shared_ && (is_shared_[corners[0]] | is_shared_[corners[1]] | is_shared_[corners[2]]) != 0;
