@@ -18,7 +18,7 @@ constexpr int points_to_guide = 7, points_to_test = 15;
 
 /// Originals that a walk below an edge passes. With 16 `high` takes 1.15 of the time for 0.6% more faces (three meshes
 /// at 0.1%).
-constexpr int max_passes = 64;
+constexpr int max_walk_passes = 64;
 
 /// Originals below the edges around a vertex and its neighbours, which are walked along again and again: with 128
 /// `high` takes 9% longer (four meshes at 0.1%).
@@ -28,7 +28,7 @@ constexpr std::size_t min_degree = 3;
 
 /// Where the sum is smaller, the worst sample at a tenth of the tolerance, there is nothing to gain by a flip, and one
 /// that lowers it by a smaller share is not worth a proof.
-constexpr double low_deviation = 1e-6, min_flip_gain = 0.05;
+constexpr double least_sum = 1e-6, min_flip_gain = 0.05;
 
 }  // namespace
 
@@ -169,7 +169,7 @@ bool LocalEdit::flip_lowers_deviation(Corner edge) {
   if (!gather_flip(edge)) return false;
   const double now = deviation().sum;
   const double enough = (1 - min_flip_gain) * now;
-  return now >= low_deviation && place_flipped() && deviation(enough).sum < enough;
+  return now >= least_sum && place_flipped() && deviation(enough).sum < enough;
 }
 
 /// A point of an edge, which moves by `share` of what the vertex does, and an original triangle near it.
@@ -191,7 +191,7 @@ std::uint32_t LocalEdit::original_near(Vec3 p, std::uint32_t hint) {
 /// Where the edge from the vertex is farthest from the originals that a walk passes below it. `near` is an original
 /// near the vertex.
 LocalEdit::BelowEdge LocalEdit::below_edge(Vec3 vertex, Vec3 end, std::uint32_t near) {
-  const StarSamples::Walked walked = samples_.walk_below(vertex, end, near, max_passes);
+  const StarSamples::Walked walked = samples_.walk_below(vertex, end, near, max_walk_passes);
   if (walked.share < 1) return {};
   if (!walked.farthest) return {true, 0, {}, {}};
   const auto& [a, b, c] = state_.triangles[walked.farthest->near];

@@ -9,7 +9,7 @@ namespace meshbound {
 namespace {
 
 /// Two steps for each p = 4, 8, 16, 32, 64 and two more: then the p-norm is within a few percent of the maximum.
-constexpr int max_steps = 12;
+constexpr int max_norm_steps = 12;
 constexpr int max_doublings = 5;
 /// Where all slopes are parallel nothing is known across them; this share of the mean curvature is added to all.
 constexpr float damping = 1e-3F;
@@ -42,7 +42,7 @@ MinimaxStep minimax_step(const LinearDeviations& deviations, const DeviationKern
   DeviationKernel::Move move = {};
   float largest = kernel.largest_along(deviations, move, {}, {})[0];
   MinimaxStep result{largest, largest, {}};
-  for (int k = 0; k < max_steps && largest > low_deviation; ++k) {
+  for (int k = 0; k < max_norm_steps && largest > low_deviation; ++k) {
     const int doublings = std::min(1 + k / 2, max_doublings);
     const WeightedSums sums = kernel.weighted_sums(deviations, move, 1 / largest, doublings);
     const float mean = (sums.matrix[0] + sums.matrix[1] + sums.matrix[2]) / 3;
