@@ -13,6 +13,7 @@
 #include "meshbound/error.h"
 #include "meshbound/level_checker.h"
 #include "meshbound/mesh_summary.h"
+#include "meshbound/tiles.h"
 #include "reference/brute_force.h"
 #include "reference/claims.h"
 #include "reference/small_meshes.h"
@@ -387,6 +388,24 @@ TEST(CheckTolerance, OfMeshesInOneDirection) {
   }
   EXPECT_EQ(check_one_sided_tolerance(large, small, 0.5).verdict, Verdict::Exceeds);
   EXPECT_THROW((void)check_one_sided_tolerance(small, large, -1), InvalidInput);
+}
+
+/// Their squares are beyond the numbers there are.
+TEST(CheckTolerance, IsWithinTolerancesOfAnySize) {
+  const TriangleMesh a = icosphere(2), b = random_soup(3, 40, 0.3);
+  const Bvh tree_a(a), tree_b(b);
+  for (const double tolerance : {1e10, 1e155, 1e308, std::numeric_limits<double>::infinity()}) {
+    const ToleranceCheck check = check_tolerance(tree_a, tree_b, tolerance);
+    EXPECT_EQ(check.verdict, Verdict::Within) << tolerance;
+    EXPECT_TRUE(std::isfinite(check.bounds.upper)) << tolerance;
+    DistanceOptions options;
+    options.error_bound = options.tolerance = tolerance;
+    for (const Bounds& bounds : {hausdorff_distance(tree_a, tree_b, options).bounds,
+                                 hausdorff_distance_in_tiles(a, b, options, {64}).bounds}) {
+      EXPECT_LE(bounds.lower, 10);
+      EXPECT_TRUE(std::isfinite(bounds.upper)) << tolerance;
+    }
+  }
 }
 
 /// Early or late, before the first step or in the middle of one: several threads are at work.

@@ -32,7 +32,9 @@ const std::vector<Target> float_targets = {{"m.stl", {}},
                                            {"m.obj", {.ascii = false, .single_precision = true}},
                                            {"m.STL", {.ascii = true, .single_precision = false}},
                                            {"m.ply", {.ascii = false, .single_precision = true}},
-                                           {"m.ply", {.ascii = true, .single_precision = true}}};
+                                           {"m.ply", {.ascii = true, .single_precision = true}},
+                                           {"m.gltf", {}},
+                                           {"m.glb", {}}};
 
 std::vector<std::uint64_t> bits_of(const TriangleMesh& mesh) {
   std::vector<std::uint64_t> bits;
@@ -110,12 +112,15 @@ TEST(RoundTrip, KeepsUnusedVerticesWhateverTheyHold) {
   for (const Target& target : double_targets) expect_round_trip(target, mesh);
 }
 
-TEST(Rounding, ForStlWeldsAndDropsWhatNoTriangleUses) {
+TEST(Rounding, ForStlAndGltfWeldsAndDropsWhatNoTriangleUses) {
   TriangleMesh mesh = mesh_over({9, 9, 9, 0, 0, 0, 1, 0, 0, 0, 1, 0, 1 + 1e-12, -0.0, 0, 1, 1, 0});
   mesh.triangles = {{1, 2, 3}, {4, 5, 3}};
-  const TriangleMesh rounded = rounded_for("m.stl", mesh);
-  EXPECT_EQ(rounded.vertices.size(), 4u);
-  EXPECT_EQ(rounded.triangles, (std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}}));
+  for (const char* name : {"m.stl", "m.gltf", "m.glb"}) {
+    const TriangleMesh rounded = rounded_for(name, mesh);
+    EXPECT_EQ(rounded.vertices.size(), 4u) << name;
+    EXPECT_EQ(rounded.triangles, (std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}})) << name;
+    expect_round_trip({name, {}}, mesh);
+  }
 }
 
 TEST(Rounding, RefusesWhatLeavesTheRangeOfFloat) {

@@ -128,6 +128,10 @@ TEST_F(CubeThatMoves, APoseThatIsNoRigidMotionIsRefusedAndChangesNothing) {
   scaled.linear() *= 2;
   (void)pair.hausdorff_distance(Isometry3d::Identity(), translated({0.5, 0, 0}), wanted());
   EXPECT_THROW((void)pair.hausdorff_distance(Isometry3d::Identity(), scaled, wanted()), InvalidInput);
+  Isometry3d transposed = translated({0.5, 0, 0});
+  transposed.matrix().transposeInPlace();
+  EXPECT_THROW((void)pair.hausdorff_distance(Isometry3d::Identity(), transposed, wanted()), InvalidInput);
+  EXPECT_THROW((void)hausdorff_distance(cube_, {cube_, transposed}), InvalidInput);
   const auto after = pair.hausdorff_distance(Isometry3d::Identity(), translated({0.5, 0, 0}), wanted());
   EXPECT_GE(after.bounds.upper, 0.5);
   EXPECT_LE(queries(after), 24u);

@@ -523,6 +523,20 @@ TEST(Proximity, FindsATriangleNearby) {
   EXPECT_LT(nearer_than_walked, probes.triangles.size() / 2);
 }
 
+TEST(Proximity, TakesAnyNumberForAHint) {
+  const Bvh tree(icosphere(2));
+  for (const std::uint32_t hint : {static_cast<std::uint32_t>(tree.triangle_count()), ~0u}) {
+    Proximity proximity(tree);
+    std::uint32_t used = hint;
+    EXPECT_NEAR(proximity.upper_distance({0, 0, 3}, used), 2, 1e-9);
+    EXPECT_LT(used, tree.triangle_count());
+    EXPECT_LT(proximity.nearby_triangle({0, 0, 3}, hint, 0), tree.triangle_count());
+    used = hint;
+    const Corners inside{Vector3d{0, 0, 0.99}, Vector3d{0.01, 0, 0.99}, Vector3d{0, 0.01, 0.99}};
+    EXPECT_EQ(proximity.triangle_within(inside, 0.1, used), Verdict::Within);
+  }
+}
+
 /// A triangle that lies above a square by as much as one likes: both have z = 0 but for that.
 TEST(Proximity, IsNeverWithinAToleranceThatRoundingHides) {
   const Bvh tree(unit_square(3));

@@ -182,6 +182,20 @@ TEST_F(Tori, TheErrorOfAGroupIsThatOfItsWorstPart) {
   EXPECT_NEAR(levels.group_errors[0][1], std::max(first, second), 1e-6);
 }
 
+/// Squares of these lengths are no numbers.
+TEST(ViewTolerance, TakesDirectionsOfAnyLength) {
+  ViewCamera camera;
+  camera.direction = {0.1, 0.2, -1};
+  const double expected = view_tolerance(camera, 1, unit_box, at({0, 0, -5}));
+  for (const double length : {1e-300, 3e-162, 1e160, 1e300}) {
+    camera.direction = length * Eigen::Vector3d(0.1, 0.2, -1);
+    EXPECT_NEAR(view_tolerance(camera, 1, unit_box, at({0, 0, -5})), expected, 1e-12) << length;
+  }
+  camera.direction = {1e150, 1e150, -1e150};
+  EXPECT_LT(view_tolerance(camera, 1, unit_box, at({0, 0, -1e200})), HUGE_VAL);  // in front of it
+  EXPECT_EQ(view_tolerance(camera, 1, unit_box, at({1.5e308, 1.5e308, 1.5e308})), 0);
+}
+
 TEST_F(Tori, WhatCannotBeIsRefused) {
   EXPECT_THROW((void)choose({{0, at({0, 0, -std::numeric_limits<double>::infinity()}), {}}}), InvalidInput);
   EXPECT_THROW((void)choose({{1, at({0, 0, -5}), {}}}), InvalidInput);
@@ -194,6 +208,10 @@ TEST_F(Tori, WhatCannotBeIsRefused) {
   ViewCamera camera;
   camera.direction.setZero();
   EXPECT_THROW((void)view_tolerance(camera, 1, unit_box, at({0, 0, -5})), InvalidInput);
+  AffineMap transposed = at({0, 0, -5});
+  transposed.matrix().transposeInPlace();
+  EXPECT_THROW((void)view_tolerance({}, 1, unit_box, transposed), InvalidInput);
+  EXPECT_THROW((void)choose({{0, transposed, {}}}), InvalidInput);
   const double none_at_all = std::nan("");
   camera = {};
   EXPECT_THROW((void)view_tolerance(camera, 1, unit_box, at({0, none_at_all, -5})), InvalidInput);

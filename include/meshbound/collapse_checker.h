@@ -22,7 +22,7 @@ namespace meshbound {
 ///     }
 ///
 /// Vertices are indices in the mesh at the start. A collapse is also refused where it would leave no 2-manifold
-/// (link condition), turn a face by more than a right angle or make one that is next to nothing, move a locked vertex,
+/// (link condition), turn a face by more than 84 degrees or make one that is next to nothing, move a locked vertex,
 /// or change more than 48 faces. The state is a proof, rounding included, for the points as they were given; measure
 /// the result all the same (`check_tolerance`) where it matters. Not thread-safe. Memory: O(original); a collapse takes
 /// time by the number of original triangles near it.
@@ -37,7 +37,8 @@ class CollapseChecker {
   ~CollapseChecker();
 
   /// Whether the bound holds after the collapse of the edge between the vertices u and v into `point`. After `commit`
-  /// the mesh has this collapse; any other call goes on from the mesh as it was before.
+  /// the mesh has this collapse; any other call goes on from the mesh as it was before. Throws `InvalidInput` for
+  /// vertices that a collapse has removed or that no edge joins.
   [[nodiscard]] bool admits(std::uint32_t u, std::uint32_t v, const Eigen::Vector3d& point);
   /// The first point of these for which the bound holds: `wanted`, where the largest sampled distance is least, the
   /// ends. With a locked end, that one. None: the edge is refused, and again until something near has changed.

@@ -41,8 +41,9 @@ struct DistanceOptions {
   Budget budget;                              ///< of the whole call
   int threads = 0;                            ///< 0: as many as OpenMP has. Results are the same for every value.
   const std::atomic<bool>* cancel = nullptr;  ///< set to true from another thread or a signal handler to stop early
-  /// Called from the calling thread, a few times a second at most. May call the library, for the same models too; what
-  /// it throws ends this call and is passed on.
+  /// Called from the calling thread with an estimate of the share done, which may fall from one direction to the other
+  /// and need not reach 1; ten times a second at most, and once a tile where a function works in tiles. May call the
+  /// library, for the same models too; what it throws ends this call and is passed on.
   std::function<void(double fraction)> progress;
 };
 
@@ -55,7 +56,9 @@ struct DistanceOptions {
 
 /// How a computation ended.
 enum class Outcome {
-  Converged,         ///< upper - lower <= error bound (and the tolerance, if any, is decided)
+  /// upper - lower <= error bound (and the tolerance, if any, is decided); also of a direction that was not searched,
+  /// whose bounds are 0 and infinity (`was_searched` in report.h).
+  Converged,
   ExceedsTolerance,  ///< decision mode: a point further than the tolerance was found and the search ended there
   BudgetExhausted,   ///< a budget ran out or it was cancelled; the bounds hold but are wider than wanted
   PrecisionReached   ///< doubles cannot narrow the interval further; the bounds hold

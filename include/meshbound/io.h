@@ -73,10 +73,10 @@ struct WriteOptions {
   StopToken::Clock::time_point deadline = StopToken::Clock::time_point::max();
 };
 
-/// The mesh that `read_mesh` gives back after `write_mesh`, bit for bit: coordinates rounded to the precision of the
-/// file format, and for STL vertices welded, numbered as the triangles reach them, unused ones dropped. The order of
-/// triangles is kept. Throws `InvalidInput` when a coordinate leaves the range of float or `validate` refuses the mesh.
-/// O(n).
+/// The mesh that `read_mesh` gives back after `write_mesh` without attributes, bit for bit: coordinates rounded to the
+/// precision of the file format; for STL and glTF vertices welded, numbered as the triangles reach them, unused ones
+/// dropped. The order of triangles is kept. Throws `InvalidInput` when a coordinate leaves the range of float or
+/// `validate` refuses the mesh. O(n).
 [[nodiscard]] TriangleMesh rounded_for(const std::filesystem::path& path, const TriangleMesh& mesh,
                                        const WriteOptions& options = {});
 
@@ -84,9 +84,9 @@ struct WriteOptions {
 /// folder, then renames: `path` either keeps what it had or holds the whole
 /// mesh. Symbolic links are followed, also to a file that is not there yet; a file that is replaced leaves its
 /// permissions to the new one; devices and FIFOs are written to as they are. Throws `IoError` (also when the disk is
-/// full, and for a file that grants writing to nobody, whoever asks), `InvalidInput` for an unknown extension and where
-/// `rounded_for` does, `Interrupted` and `Stopped` as the options say; nothing is written then. O(n). Safe to call from
-/// several threads, as is all of this header.
+/// full, and for a file that grants writing to nobody, whoever asks), `InvalidInput` for an unknown extension, for
+/// attributes of another number of triangles and where `rounded_for` does, `Interrupted` and `Stopped` as the options
+/// say; nothing is written then. O(n). Safe to call from several threads, as is all of this header.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options = {},
                 const MeshAttributes& attributes = {});
 

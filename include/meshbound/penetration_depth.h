@@ -74,8 +74,8 @@ struct PenetrationOptions {
   Budget budget;            ///< of the whole call; cuts of pieces count for each direction of each volume
   int threads = 1;          ///< 0: as many as OpenMP has. Results are the same for every value.
   const std::atomic<bool>* cancel = nullptr;  ///< set to true from another thread or a signal handler to stop early
-  /// Called from the calling thread, a few times a second at most. May call the library, for the same models too; what
-  /// it throws ends this call and is passed on.
+  /// Called from the calling thread with the share of the intersection volumes that are measured, after each. May call
+  /// the library, for the same models too; what it throws ends this call and is passed on.
   std::function<void(double fraction)> progress;
 };
 

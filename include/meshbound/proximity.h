@@ -24,8 +24,7 @@ class Proximity {
   /// further (rounding included both ways). `Undecided` after `max_subdivisions` cuts or where doubles cannot tell.
   /// Model units and coordinates. Throws `InvalidInput` for a tolerance that is no length and for corners that are not
   /// finite or beyond `largest_coordinate`. Expected O(log n), and the cuts. `hint` is a triangle of the mesh to try
-  /// first and returns the one that served last; any value below the number of triangles is right, a good one is
-  /// faster.
+  /// first and returns the one that served last; any value is right, a good one is faster.
   [[nodiscard]] Verdict triangle_within(const std::array<Eigen::Vector3d, 3>& triangle, double tolerance,
                                         std::uint32_t& hint, std::uint64_t max_subdivisions = 10000);
 

@@ -89,15 +89,15 @@ class Scene {
   /// of two bodies in world coordinates lie no further apart than the distance, so a sweep along one axis finds the
   /// pairs that can be within it; those are decided in parallel by `check_tolerance`, each by one thread.
   /// `options.budget` counts for all pairs together in time and for each in subdivisions; pairs that it leaves open are
-  /// `Undecided`. Throws as `check_tolerance`. The same answers for any number of threads. O(n log n) for n bodies, and
-  /// the pairs.
+  /// `Undecided`. `options.progress` is not called. Throws as `check_tolerance`. The same answers for any number of
+  /// threads. O(n log n) for n bodies, and the pairs.
   [[nodiscard]] SceneCheck check_tolerance(double tolerance, const DistanceOptions& options = {});
 
   /// The penetration depth of all pairs of solids that share content. Pairs whose boxes have no point in common are
   /// skipped, pairs that have not moved keep their answer, the rest are measured in parallel, each by one thread.
   /// `options.decide` asks only whether volumes are deeper than that, and `stop_when_deeper` ends each pair at the
   /// first one; `options.budget` counts for all pairs together in time, and what it leaves open is measured again by
-  /// the next call. Throws as `penetration_depth`. The same answers
+  /// the next call. `options.progress` is not called. Throws as `penetration_depth`. The same answers
   /// for any number of threads (`options.threads`; 0: as many as OpenMP has). O(n log n) for n bodies, and the pairs.
   [[nodiscard]] SceneContacts contacts(const PenetrationOptions& options = {});
 

@@ -86,7 +86,8 @@ struct SimplifyOptions {
   /// those with locked vertices or, with `preserve_boundary`, with a border, and none where a texture or normals count.
   bool prune = false;
   bool preserve_boundary = false;  ///< edges with one face stay as they are
-  /// By vertex of the original, empty for none: true keeps a vertex that a triangle uses where it is, to the bit.
+  /// By vertex of the original, empty for none: true keeps a vertex that a triangle uses where it is, to the bit; with
+  /// `Precision::Single` at the floats nearest to its coordinates.
   std::vector<bool> locked_vertices;
   /// Edges whose faces' normals are further apart than this are creases. Without `line_tolerance` they stay as they
   /// are, both ends locked. Radians, 0 to pi.
@@ -128,8 +129,8 @@ struct SimplifyOptions {
   double time_limit = std::numeric_limits<double>::infinity();
   int threads = 0;                            ///< 0: as many as OpenMP has. The result is the same for every value.
   const std::atomic<bool>* cancel = nullptr;  ///< set to true from another thread or a signal handler to stop early
-  /// Called from the calling thread with an estimate of the share done. May call the library, for the same models too;
-  /// what it throws ends this call and is passed on.
+  /// Called from the calling thread with an estimate of the share done, some thousands of times a second. May call the
+  /// library, for the same models too; what it throws ends this call and is passed on.
   std::function<void(double fraction)> progress;
   std::shared_ptr<const CollapseDriver> driver;  ///< null: the queue of the core
 };
@@ -139,7 +140,8 @@ struct SimplifiedLevel {
   double tolerance = 0;  ///< for which it was made, model units
   TriangleMesh mesh;     ///< model units
   /// By vertex of `mesh`: the vertex of the original that it comes from, for data that the caller wants to carry along.
-  /// It may have moved from there; with `CollapsePlacements::Subset` it stands exactly there.
+  /// It may have moved from there; with `CollapsePlacements::Subset` it stands exactly there, or with
+  /// `Precision::Single` at the floats nearest to it.
   std::vector<std::uint32_t> source_vertex;
   /// By triangle of `mesh`: one of the triangles of the original that it stands for.
   std::vector<std::uint32_t> source_triangle;

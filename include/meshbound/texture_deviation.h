@@ -52,7 +52,8 @@ struct TexturedMesh {
 
 /// What is asked of a measurement of texture deviation.
 struct TextureDeviationOptions {
-  /// Wanted width of the interval, model units. Absent: 1e-6 of the diagonal of A's bounding box.
+  /// Wanted width of the interval, model units. Absent: 1e-6 of the diagonal of A's bounding box; of the box around
+  /// both meshes where A is a point.
   std::optional<double> error_bound;
   /// When given, model units: each triangle is refined until it is decided whether it is within the tolerance, as far
   /// as the error bound and `max_pieces` allow; triangles not shown to be within are listed. One that is shown to be

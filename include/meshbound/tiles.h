@@ -19,15 +19,15 @@ struct TileOptions {
 };
 
 /// As `simplify_with_bound`, tile by tile: the mesh is cut by planes into tiles of about equal size, each is simplified
-/// with the vertices that it shares with others locked, then the mesh is cut elsewhere, up to five times, so that what
+/// with the vertices that it shares with others locked, then the mesh is cut elsewhere, up to three times, so that what
 /// was a seam lies inside a tile. A tile goes on from the proof that the ones before have left: no tolerance is
 /// divided. The verdict is that of `hausdorff_distance_in_tiles`.
 ///
 /// Results are the same to the bit for any number of threads, but for `time_limit` and `cancel`. Takes one tolerance:
 /// throws `InvalidInput` for levels, targets, `OnExceed::Stop`, `prune`, feature lines and angles, tolerances of faces,
-/// texture coordinates, normal tolerances and certificates; as `simplify_with_bound` otherwise. `Effort::High` refines
-/// inside the first tiles only. Memory: about 80 bytes for each triangle of the original, the original included, and
-/// the tiles under work. Expected O(n log n) time.
+/// texture coordinates, normal tolerances, looks and certificates; as `simplify_with_bound` otherwise. `Effort::High`
+/// refines inside the first tiles only. Memory: about 80 bytes for each triangle of the original, the original
+/// included, and the tiles under work. Expected O(n log n) time.
 [[nodiscard]] SimplifyResult simplify_in_tiles(const TriangleMesh& original, const SimplifyOptions& options,
                                                const TileOptions& tiles = {});
 

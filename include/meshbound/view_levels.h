@@ -37,7 +37,8 @@ struct ViewInstance {
 /// The largest deviation, in world units and rounded down, that covers at most `pixels` of the screen wherever on it
 /// the box is seen: at the box's least depth, and in the corner of the screen, where a length covers most. 0 where the
 /// box reaches the camera's plane; infinite where all of it lies behind. Throws `InvalidInput` unless the direction
-/// has a length, the aspect ratio is positive, and position and pose are finite, and as `screen_space_tolerance`. O(1).
+/// has a length, the aspect ratio is positive, the position is finite and the pose an affine map of finite entries, and
+/// as `screen_space_tolerance`. O(1).
 [[nodiscard]] double view_tolerance(const ViewCamera& camera, double pixels, const Eigen::AlignedBox3d& box,
                                     const AffineMap& pose);
 
@@ -85,8 +86,9 @@ using ViewSink = std::function<void(std::size_t model, std::size_t level, const 
 
 /// Chooses levels for all cameras. Which tolerances are needed follows from the boxes alone, so each model's chain
 /// makes those levels and no other; an instance then gets the coarsest level whose error projects to at most
-/// `ViewOptions::pixels`. Throws `InvalidInput` for an instance of a model that is not there or with a pose that is not
-/// finite, a group beyond 2^24, and as `view_tolerance` and `LodChain`. Time: the levels that are made. `sink` may be
+/// `ViewOptions::pixels`. Throws `InvalidInput` for an instance of a model that is not there or with a pose that
+/// `view_tolerance` refuses, a group beyond 2^24, shares of the diagonal and ratios that make no ladder of tolerances
+/// (`ViewOptions`), and as `view_tolerance` and `LodChain`. Time: the levels that are made. `sink` may be
 /// empty.
 [[nodiscard]] ViewLevels view_levels(std::span<const TriangleMesh> models, std::span<const ViewInstance> instances,
                                      std::span<const ViewCamera> cameras, const ViewOptions& options,

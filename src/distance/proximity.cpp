@@ -37,8 +37,10 @@ struct Proximity::Impl {
     std::uint32_t slot = 0;
     return std::ranges::all_of(data.triangle_of_slot, [&](std::uint32_t triangle) { return triangle == slot++; });
   }
-  [[nodiscard]] std::uint32_t slot_of(std::uint32_t triangle) const {
-    return slot_of_triangle.empty() ? triangle : slot_of_triangle[triangle];
+  /// Where a hint stands in the tree; the first slot for one that is no triangle.
+  [[nodiscard]] std::uint32_t slot_of(std::uint32_t hint) const {
+    if (hint >= data.triangle_count()) return 0;
+    return slot_of_triangle.empty() ? hint : slot_of_triangle[hint];
   }
 
   /// A query point in the working frame; raises `magnitude` and `error` to cover it.

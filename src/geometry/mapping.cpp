@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/affine.h"
 #include "geometry/eigen_vec3.h"
 #include "geometry/magnitude.h"
 #include "meshbound/error.h"
@@ -19,7 +20,7 @@ constexpr double max_drift = 1e-9;
 
 /// Spectral norm of R^T R - I, bounded by the Frobenius norm plus the rounding of its 9 entries (3 products each).
 double drift_of(const Pose& pose) {
-  if (!pose.matrix().allFinite()) throw InvalidInput("a pose has an entry that is not finite");
+  require_affine(pose.matrix(), "a pose");
   if (pose.linear() == Eigen::Matrix3d::Identity()) return 0;
   const double drift = (pose.linear().transpose() * pose.linear() - Eigen::Matrix3d::Identity()).norm();
   if (!(drift <= max_drift))

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/affine.h"
 #include "mesh/mesh_arrays.h"
 #include "meshbound/error.h"
 #include "meshbound/pose.h"
@@ -57,12 +58,6 @@ Rounded image_coordinate(const Eigen::RowVector4d& row, const Eigen::Vector3d& x
   return {result.value, exact ? 0 : std::nextafter(error, infinity)};
 }
 
-void require_affine(const AffineMap::MatrixType& matrix) {
-  if (!matrix.allFinite()) throw InvalidInput("transform: an entry of the matrix is not finite");
-  if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
-    throw InvalidInput("transform: the last row of the matrix must be 0 0 0 1 (row-major order)");
-}
-
 /// Length of a vector of non-negative errors, rounded up: hypot of three numbers errs by less than 4 units in the last
 /// place.
 double length_rounded_up(const Eigen::Vector3d& v) {
@@ -73,7 +68,7 @@ double length_rounded_up(const Eigen::Vector3d& v) {
 }  // namespace
 
 TransformedMesh transformed(const MeshView& mesh, const AffineMap& map) {
-  require_affine(map.matrix());
+  require_affine(map.matrix(), "transform: the matrix");
   validate(mesh);
   TransformedMesh result{to_triangle_mesh(mesh), 0};
   const std::vector<std::uint8_t> used = used_vertices(mesh);

@@ -35,7 +35,12 @@ void refuse_unwritable(const std::filesystem::path& path, FileFormat format, con
     throw InvalidInput(path.string() + ": a binary STL holds at most 2^32-1 triangles; write PLY");
 }
 
-/// Vertices at equal positions become one, in the order the triangles reach them, as the reader of STL does.
+/// Whether the reader of a format makes vertices at equal positions one and drops those that no triangle uses.
+bool is_welded_when_read(FileFormat format) {
+  return format == FileFormat::Stl || format == FileFormat::Gltf || format == FileFormat::Glb;
+}
+
+/// Vertices at equal positions become one, in the order the triangles reach them, as these readers do.
 TriangleMesh welded(const TriangleMesh& mesh) {
   TriangleMesh result;
   result.triangles.reserve(mesh.triangles.size());
@@ -63,7 +68,7 @@ TriangleMesh rounded_for(const std::filesystem::path& path, const TriangleMesh& 
   refuse_unwritable(path, format, mesh, options);
   TriangleMesh result = mesh;
   if (stores_floats(format, options)) round_to_floats(result);
-  return format == FileFormat::Stl ? welded(result) : result;
+  return is_welded_when_read(format) ? welded(result) : result;
 }
 
 void write_mesh(AtomicFile& file, const std::filesystem::path& path, const TriangleMesh& mesh,

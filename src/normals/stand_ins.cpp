@@ -6,8 +6,7 @@
 
 #include "geometry/boxes.h"
 #include "geometry/eigen_vec3.h"
-#include "geometry/longest_edge.h"
-#include "geometry/triangle_corners.h"
+#include "geometry/offset_from_triangle.h"
 #include "mesh/mesh_arrays.h"
 #include "meshbound/error.h"
 
@@ -28,21 +27,6 @@ std::optional<Eigen::Vector3d> normal_of(const Corners& c) {
 
 double degrees_between(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
   return std::atan2(p.cross(q).norm(), p.dot(q)) * (180 / std::numbers::pi);
-}
-
-/// The vector to p from the point of the triangle nearest to it. Coordinates around p are divided by the largest one,
-/// so that squares neither overflow nor underflow.
-Eigen::Vector3d offset_from(const Corners& corners, const Eigen::Vector3d& p) {
-  double size = 0;
-  for (const Eigen::Vector3d& corner : corners) size = std::max(size, (corner - p).cwiseAbs().maxCoeff());
-  if (!(size > 0)) return Eigen::Vector3d::Zero();
-  TriangleCorners c;  // around p
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Eigen::Vector3d way = (corners[k] - p) / size;
-    c[k] = {way.x(), way.y(), way.z()};
-  }
-  const Vec3 offset = closest_on_triangle(longest_edge_first(c), Vec3{}).offset;
-  return size * Eigen::Vector3d(offset.x, offset.y, offset.z);
 }
 
 }  // namespace
@@ -134,7 +118,7 @@ FaceTurn StandIns::turn_of(const SurfacePoint& middle, const Eigen::Vector3d& no
   const Eigen::Vector3d around = Eigen::Vector3d::Constant(reach);
   boxes_->find({middle.position - around, middle.position + around}, near);
   for (const std::uint32_t f : near) {
-    const Eigen::Vector3d offset = offset_from(corners(f), middle.position);
+    const Eigen::Vector3d offset = offset_from_triangle(corners(f), middle.position);
     const double degrees = degrees_between(normal, normals_[f]);
     if (offset.stableNorm() > reach || degrees >= turn.degrees) continue;
     turn.degrees = degrees;
@@ -144,7 +128,7 @@ FaceTurn StandIns::turn_of(const SurfacePoint& middle, const Eigen::Vector3d& no
 }
 
 bool is_within(const StandIns::Corners& corners, const Eigen::Vector3d& p, double reach) {
-  return offset_from(corners, p).stableNorm() <= reach;
+  return offset_from_triangle(corners, p).stableNorm() <= reach;
 }
 
 }  // namespace meshbound

@@ -5,6 +5,7 @@
 
 #include "geometry/longest_edge.h"
 #include "geometry/magnitude.h"
+#include "geometry/offset_from_triangle.h"
 #include "geometry/triangle_corners.h"
 #include "numeric/rounding.h"
 #include "texture/exact_length.h"
@@ -98,12 +99,6 @@ TriangleCorners as_vectors(const std::array<Eigen::Vector3d, 3>& corners) {
   TriangleCorners c;
   for (std::size_t k = 0; k < 3; ++k) c[k] = {corners[k].x(), corners[k].y(), corners[k].z()};
   return c;
-}
-
-/// The point of a triangle that is nearest to p, rounded.
-Eigen::Vector3d nearest_on(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& p) {
-  const Vec3 offset = closest_on_triangle(longest_edge_first(as_vectors(corners)), Vec3{p.x(), p.y(), p.z()}).offset;
-  return p - Eigen::Vector3d(offset.x, offset.y, offset.z);
 }
 
 /// Between magnitudes of this and its inverse squares of lengths that matter neither overflow nor underflow.
@@ -315,10 +310,11 @@ TextureWitness Overlay::witness(std::uint32_t candidate, const Node& node) {
     corners[k] = as_doubles(f.corners[std::min(k, f.corner_count - 1)], f.denominator, units_.position);
   TextureWitness witness;
   witness.from = {as_doubles(f.point, f.denominator, units_.position), a_->source->triangle};
-  witness.nearest = {nearest_on(corners, witness.from.position), c.triangle->source->triangle};
+  const Eigen::Vector3d& from = witness.from.position;
+  witness.nearest = {from - offset_from_triangle(corners, from), c.triangle->source->triangle};
   const std::array<double, 3> weights = rounded(node);
   for (std::size_t i = 0; i < 3; ++i) witness.coordinate += weights[i] * a_->source->coordinates[i];
-  witness.distance = (witness.from.position - witness.nearest.position).norm();
+  witness.distance = (from - witness.nearest.position).stableNorm();
   return witness;
 }
 

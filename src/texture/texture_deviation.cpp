@@ -12,6 +12,7 @@
 #include "distance/larger_bounds.h"
 #include "geometry/boxes.h"
 #include "meshbound/error.h"
+#include "meshbound/mesh_summary.h"
 #include "numeric/rounding.h"
 #include "numeric/tasks.h"
 #include "numeric/thread_count.h"
@@ -316,23 +317,29 @@ void check_input(const TexturedMesh& a, const TexturedMesh& b) {
   check_finite(b);
 }
 
-double diagonal_of(const TexturedMesh& mesh) {
+Eigen::AlignedBox3d box_around(const TexturedMesh& mesh) {
   Eigen::AlignedBox3d box;
   for (const TexturedTriangle& t : mesh.triangles) box.extend(box_of(t.corners));
-  return box.isEmpty() ? 0 : box.diagonal().stableNorm();
+  return box;
+}
+
+/// The diagonal of A's bounding box; where A is a point, of the one around both meshes.
+double size_of(const TexturedMesh& a, const TexturedMesh& b) {
+  const double of_a = diagonal_of(box_around(a));
+  return of_a > 0 ? of_a : diagonal_of(box_around(a).merged(box_around(b)));
 }
 
 /// `known` by direction; it is made complete.
 TextureDeviation measured(const Charts& charts_a, const Charts& charts_b, const TextureDeviationOptions& options,
                           std::array<TriangleBounds, 2>& known) {
-  const TexturedMesh& a = charts_a.mesh();
-  const double error_bound = options.error_bound.value_or(default_share * diagonal_of(a));
+  const double size = size_of(charts_a.mesh(), charts_b.mesh());
+  const double error_bound = options.error_bound.value_or(default_share * size);
   if (!(error_bound >= 0)) throw InvalidInput("the error bound must be a length in model units, 0 or more");
   if (options.tolerance && !(*options.tolerance >= 0))
     throw InvalidInput("the texture tolerance must be a length in model units, 0 or more");
   const ExactUnits units = common_units(charts_a, charts_b);
   TextureDeviation result;
-  const double reach = options.tolerance.value_or(reach_share * diagonal_of(a));
+  const double reach = options.tolerance.value_or(reach_share * size);
   result.a_to_b = Direction(charts_a, charts_b, units, error_bound, reach, options, known[0]).run();
   result.b_to_a = Direction(charts_b, charts_a, units, error_bound, reach, options, known[1]).run();
   result.bounds = larger(result.a_to_b.bounds, result.b_to_a.bounds);

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "geometry/affine.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
@@ -23,7 +24,7 @@ constexpr std::size_t max_group = 1 << 24;
 double stretch_of(const ViewInstance& instance, std::size_t number, std::size_t models) {
   const std::string where = "instance " + std::to_string(number);
   if (instance.model >= models) throw InvalidInput(where + ": there is no model " + std::to_string(instance.model));
-  if (!instance.pose.matrix().allFinite()) throw InvalidInput(where + ": its pose has an entry that is not finite");
+  require_affine(instance.pose.matrix(), where + ": its pose");
   if (instance.group && *instance.group > max_group)
     throw InvalidInput(where + ": groups are numbered up to " + std::to_string(max_group));
   return Eigen::JacobiSVD<Eigen::Matrix3d>(instance.pose.linear()).singularValues()[0] * (1 + 1e-9);

@@ -72,8 +72,8 @@ void GatedOutput::write(const TriangleMesh& mesh, std::span<const Edge> lines, c
   if (precision() == Precision::Single && !attributes.document) round_to_floats(lines_);
   if (workers_ != nullptr)
     workers_->write(*file_, path_, mesh, options_);
-  else  // where a document places parts in frames of their own, floats are rounded there
-    write_mesh(*file_, path_, attributes.document ? mesh : rounded_for(path_, mesh, options_), options_, attributes);
+  else
+    write_mesh(*file_, path_, mesh, options_, attributes);
   file_->complete();
 }
 

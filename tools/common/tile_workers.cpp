@@ -28,7 +28,7 @@ TileWorkers::TileWorkers(const TileSetting& setting) {
 
 void TileWorkers::write(AtomicFile& file, const std::filesystem::path& path, const TriangleMesh& mesh,
                         const WriteOptions& options) {
-  write_mesh(file, path, rounded_for(path, mesh, options), options);
+  write_mesh(file, path, mesh, options);
 }
 
 MeshFile LocalTileWorkers::read(const std::string& path, const StopToken& stop, MeshInSpace& into,

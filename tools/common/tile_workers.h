@@ -42,7 +42,7 @@ class TileWorkers {
   /// As `read_mesh_into`; `into` must outlive this.
   [[nodiscard]] virtual MeshFile read(const std::string& path, const StopToken& stop, MeshInSpace& into,
                                       const FileWindow::Reader& reader) = 0;
-  /// Writes the mesh that `rounded_for` returns into a file that the caller commits.
+  /// Writes the mesh into a file that the caller commits.
   virtual void write(AtomicFile& file, const std::filesystem::path& path, const TriangleMesh& mesh,
                      const WriteOptions& options);
   /// Where meshes are to be kept for these workers.

@@ -106,7 +106,7 @@ ViewCamera camera_of(const Place& place, const ViewCamera& screen) {
   ViewCamera camera = screen;
   camera.position = place.at("position").point();
   camera.direction = place.at("direction").point();
-  if (!(camera.direction.norm() > 0)) place.at("direction").refuse("must have a length");
+  if (camera.direction.isZero(0)) place.at("direction").refuse("must have a length");
   return camera;
 }
 

@@ -234,7 +234,8 @@ typedef struct mb_simplify_options {
   size_t level_count;
   size_t target_faces;            /* decimation ends at this many triangles; MB_NO_TARGET: as few as possible */
   double target_ratio;            /* the same as a share of the original's triangles, 0 to 1; negative: none */
-  const uint8_t* locked_vertices; /* vertex_count bytes; 1 keeps that vertex where it is, to the bit; may be NULL */
+  const uint8_t* locked_vertices; /* vertex_count bytes; 1 keeps that vertex where it is, to the bit (or to the
+                                     nearest floats, see single_precision); may be NULL */
   const double* face_tolerances;  /* by triangle, a tolerance of its own beside that of all; may be NULL */
   const uint32_t* feature_edges;  /* pairs of vertices whose edges are lines as well; may be NULL */
   size_t feature_edge_count;      /* number of pairs */
@@ -295,8 +296,10 @@ mb_status mb_simplification_level(const mb_simplification* simplification, size_
 /* A proof that two meshes are within a tolerance, which the tool verify_certificate checks without this library. */
 typedef struct mb_certificate mb_certificate;
 
-/* Proves it for vertices and triangles as they are in memory. `options` may be NULL; its error bound and `one_sided`
- * are not looked at. MB_FAILED where no proof was found, or not within the time limit. Expected O(n log n). */
+/* Proves it for vertices and triangles as they are in memory; files of them must give back the same ones, which STL and
+ * glTF do not: they weld and renumber vertices (prove what mb_mesh_file_read gives). `options` may be NULL; its error
+ * bound and `one_sided` are not looked at. MB_FAILED where no proof was found, or not within the time limit. Expected
+ * O(n log n). */
 mb_status mb_certificate_new(const mb_mesh* original, const mb_mesh* simplified, double tolerance,
                              const mb_distance_options* options, mb_certificate** certificate);
 /* The bytes of the file. They hold until the certificate is freed. */

@@ -147,8 +147,9 @@ export function check(a: Mesh, b: Mesh, tolerance: number, options?: Omit<Distan
 /** Simplifies a mesh while its symmetric Hausdorff distance to the original stays within the tolerance. */
 export function simplify(mesh: Mesh, options: SimplifyOptions): Simplification;
 /**
- * Proves that two meshes are within a tolerance: the bytes of a file that the tool verify_certificate checks, for the
- * meshes in files with these coordinates. Throws where the tolerance does not hold, or no proof was found in time.
+ * Proves that two meshes are within a tolerance: the bytes of a file that the tool verify_certificate checks, for files
+ * that give back these vertices and triangles. STL and glTF weld and renumber vertices: prove what readMesh gives for
+ * them. Throws where the tolerance does not hold, or no proof was found in time.
  */
 export function buildCertificate(
   original: Mesh, simplified: Mesh, tolerance: number, options?: { timeLimit?: number }): Uint8Array;

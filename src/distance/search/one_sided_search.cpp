@@ -18,12 +18,16 @@ constexpr std::chrono::milliseconds between_progress{100};
 
 double scaled(double length, int exponent) { return next_up(std::ldexp(length, exponent)); }
 
+/// Working units: far beyond the distances between models that fit a frame (`max_magnitude`), with a square that is far
+/// from overflowing.
+constexpr double beyond_all_distances = 0x1p100;
+
 Goal make_goal(const OneSidedTask& task, const Mapping& map) {
   const Frame& from = task.a.bvh->data().frame;
   const Frame& to = task.b.bvh->data().frame;
   Goal goal;
-  goal.error_bound = to.working_length_down(task.error_bound);
-  goal.tolerance = to.working_length_down(task.tolerance);
+  goal.error_bound = std::min(to.working_length_down(task.error_bound), beyond_all_distances);
+  goal.tolerance = std::min(to.working_length_down(task.tolerance), beyond_all_distances);
   goal.decide_only = task.decide_only;
   const double model_error = (from.error > 0 ? scaled(from.error, from.exponent - to.exponent) : 0) + to.error;
   set_slack(goal, map.magnitude, model_error + map.error);
