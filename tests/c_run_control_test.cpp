@@ -113,6 +113,54 @@ TEST_F(CRunControl, ProgressEndsItsOwnCallOnly) {
   mb_cancel_free(options.cancel);
 }
 
+/// Calls that are over before a tenth of a second has passed, some before the library reports anything.
+TEST_F(CRunControl, IsToldThatItIsDone) {
+  struct Told {
+    int calls = 0;
+    double last = -1;
+    static int note(double fraction, void* user) {
+      auto* told = static_cast<Told*>(user);
+      ++told->calls;
+      return (told->last = fraction) > 1 ? 1 : 0;
+    }
+  } told;
+  auto options = defaults(mb_distance_options_init);
+  options.progress = Told::note;
+  options.user = &told;
+  const auto expect_told = [&](const char* call, mb_status status) {
+    EXPECT_EQ(status, MB_OK) << call << ": " << mb_error_message();
+    EXPECT_GE(told.calls, 1) << call;
+    EXPECT_EQ(told.last, 1) << call;
+    told = {};
+  };
+  mb_distance distance{};
+  mb_verdict verdict{};
+  expect_told("measure", mb_measure(&a_, &b_, &options, &distance));
+  expect_told("check", mb_check(&a_, &b_, 3, &options, &verdict, &distance));
+  mb_level_checker* checker = nullptr;
+  expect_told("level_checker_new", mb_level_checker_new(&a_, &options, &checker));
+  expect_told("level_checker_check", mb_level_checker_check(checker, &a_, 0, &options, &verdict, &distance));
+  expect_told("level_checker_measure", mb_level_checker_measure(checker, &a_, &options, &distance));
+  mb_level_checker_free(checker);
+  mb_certificate* certificate = nullptr;
+  expect_told("certificate_new", mb_certificate_new(&a_, &a_, 0.1, &options, &certificate));
+  mb_certificate_free(certificate);
+  auto simplification_options = simplify_options(0.01);
+  simplification_options.progress = Told::note;
+  simplification_options.user = &told;
+  Simplification result;
+  expect_told("simplify", mb_simplify(&a_, &simplification_options, &result.handle));
+}
+
+/// The call that says that the work is done can still end it.
+TEST_F(CRunControl, EndsAtTheLastReport) {
+  auto options = defaults(mb_distance_options_init);
+  options.progress = [](double fraction, void*) { return fraction == 1 ? 1 : 0; };
+  mb_level_checker* checker = nullptr;
+  EXPECT_EQ(mb_level_checker_new(&a_, &options, &checker), MB_CANCELLED);
+  EXPECT_EQ(checker, nullptr);
+}
+
 /// At most ten times a second, after the first call, and once at the end.
 TEST_F(CRunControl, IsNotWatchedMoreOftenThanPeopleLook) {
   using Clock = std::chrono::steady_clock;

@@ -95,9 +95,9 @@ void mb_cancel_request(mb_cancel* cancel);
 void mb_cancel_reset(mb_cancel* cancel);
 void mb_cancel_free(mb_cancel* cancel); /* after the calls that it was passed to have returned */
 
-/* Called from the thread of the call with a guess between 0 and 1: at most ten times a second, and once more before the
- * call returns. What it returns other than 0 ends the call with MB_CANCELLED, and no other call that has the same
- * mb_cancel. Must not throw or jump out of the call. */
+/* Called from the thread of the call with a guess between 0 and 1: at most ten times a second, and at last with 1
+ * before a call returns MB_OK, however short it was. What it returns other than 0 ends the call with MB_CANCELLED, and
+ * no other call that has the same mb_cancel. Must not throw or jump out of the call. */
 typedef int (*mb_progress)(double fraction, void* user);
 
 /* ---- files ---- */
@@ -190,7 +190,8 @@ mb_status mb_check(const mb_mesh* a, const mb_mesh* b, double tolerance, const m
 /* Keeps the tree of an original, and from level to level what did not change, so that it is not checked again. */
 typedef struct mb_level_checker mb_level_checker;
 
-/* The geometry is copied. `options` may be NULL; only `threads` and `cancel` are looked at. O(n log n). */
+/* The geometry is copied. `options` may be NULL; only `threads`, `cancel` and `progress` are looked at, and `progress`
+ * is told nothing but 1 at the end. O(n log n). */
 mb_status mb_level_checker_new(const mb_mesh* original, const mb_distance_options* options, mb_level_checker** checker);
 /* mb_check(original, level); `one_sided` must be 0. */
 mb_status mb_level_checker_check(mb_level_checker* checker, const mb_mesh* level, double tolerance,

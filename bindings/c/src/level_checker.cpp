@@ -31,9 +31,11 @@ mb_status mb_level_checker_new(const mb_mesh* original, const mb_distance_option
   return guarded(threads_of(options), [&] {
     require(checker, "checker");
     const mb_distance_options given = complete(options, mb_distance_options_init);
-    const RunControl control(given);
+    RunControl control(given);
     const BvhOptions tree{given.threads, {.cancel = control.flag()}};
-    *checker = new mb_level_checker{LevelChecker(view_of(original, "original"), tree)};
+    std::unique_ptr<mb_level_checker> built(new mb_level_checker{LevelChecker(view_of(original, "original"), tree)});
+    control.finish();
+    *checker = built.release();
   });
 }
 

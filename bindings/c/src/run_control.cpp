@@ -30,19 +30,16 @@ std::function<void(double)> RunControl::progress() {
 }
 
 void RunControl::finish() {
-  if (held_back_ && !*flag_) tell(*held_back_);
+  if (progress_ != nullptr && told_ != 1 && !*flag_) tell(1);
   if (*flag_) throw Interrupted("cancelled");
 }
 
 void RunControl::report(double fraction) {
-  if (told_at_ && Clock::now() - *told_at_ < between_reports)
-    held_back_ = fraction;
-  else
-    tell(fraction);
+  if (!told_at_ || Clock::now() - *told_at_ >= between_reports) tell(fraction);
 }
 
 void RunControl::tell(double fraction) {
-  held_back_.reset();
+  told_ = fraction;
   if (progress_(fraction, user_) != 0) *flag_ = true;
   told_at_ = Clock::now();
 }

@@ -28,8 +28,8 @@ class RunControl {
   /// The progress function for the library; empty if the caller gave none. Must not outlive this.
   [[nodiscard]] std::function<void(double)> progress();
 
-  /// To be called when the work is done: tells the caller's progress function what was held back last, and throws
-  /// `Interrupted` if the flag is set, so that no result of a cancelled call is handed out.
+  /// To be called when the work is done: tells the caller's progress function 1 if it has not been told that, and
+  /// throws `Interrupted` if the flag is set, so that no result of a cancelled call is handed out.
   void finish();
 
  private:
@@ -44,7 +44,7 @@ class RunControl {
   mb_progress progress_;
   void* user_;
   std::optional<Clock::time_point> told_at_;
-  std::optional<double> held_back_;  ///< newest fraction that the caller has not been told
+  std::optional<double> told_;  ///< the last fraction
 };
 
 }  // namespace meshbound::c_interface
