@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Run by CTest: installs the Python package with pip, without any network, and calls it. The compiled part comes from the
-# build that is there.
+# build that is there. Also looks at what that part exports.
 file(REMOVE_RECURSE ${work_dir})
 # pip leaves its own build folder in the source.
 file(COPY ${source_dir}/bindings/python DESTINATION ${work_dir}/source/bindings)
@@ -22,3 +22,10 @@ foreach(file IN ITEMS py.typed _core.pyi)
     message(FATAL_ERROR "meshbound/${file} was not installed")
   endif()
 endforeach()
+
+file(GLOB module ${work_dir}/site/meshbound/_core.*.so)
+execute_process(COMMAND ${nm} -D --defined-only ${module} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+if(NOT result EQUAL 0 OR NOT output MATCHES "^[0-9a-f]+ T PyInit__core\n$")
+  string(SUBSTRING "${output}" 0 500 output)
+  message(FATAL_ERROR "${module} exports more than PyInit__core (${result}):\n${output}${errors}")
+endif()

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 import threading
-from typing import Any, Callable, Iterable, Optional, Union
+from contextlib import contextmanager
+from typing import Any, Callable, Iterable, Iterator, Optional, Union
 
 from . import _core
 from ._meshes import Arrays, arrays_of
@@ -43,15 +44,21 @@ def hausdorff_distance(
     one_sided: only from ``a`` to ``b``.
     threads: 0 is as many as OpenMP has. Results are the same for every number.
     time_limit: seconds of the whole call; the bounds that it had by then hold.
-    progress: called with the share that is done, 20 times a second; an answer that is false, except None, ends the call
-        with Cancelled.
+    progress: called with the share that is done, at most 20 times a second; an answer that is false, except None, ends
+        the call with Cancelled.
 
     The arrays must not change during the call. Ctrl-C ends it. Raises InvalidInput for what is no mesh, and for
     options out of range. About O(n log n) where the surfaces are close or far apart for their size.
     """
     arrays = arrays_of(a)
-    request = _core.Request(_length(error_bound, arrays), one_sided, threads, time_limit, progress)
-    return distance_from(_core.measure(*arrays, *arrays_of(b), request))
+    options = {
+        "error_bound": _length(error_bound, arrays),
+        "one_sided": one_sided,
+        "threads": threads,
+        "time_limit": time_limit,
+        "progress": progress,
+    }
+    return distance_from(_core.measure(*arrays, *arrays_of(b), options))
 
 
 def check_tolerance(
@@ -69,8 +76,8 @@ def check_tolerance(
     A percentage is one of the diagonal of ``a``. Other arguments and errors as for `hausdorff_distance`.
     """
     arrays = arrays_of(a)
-    request = _core.Request(None, one_sided, threads, time_limit, progress)
-    return check_from(_core.check(*arrays, *arrays_of(b), _required(_length(tolerance, arrays)), request))
+    options = {"one_sided": one_sided, "threads": threads, "time_limit": time_limit, "progress": progress}
+    return check_from(_core.check(*arrays, *arrays_of(b), _required(_length(tolerance, arrays)), options))
 
 
 def simplify(
@@ -118,11 +125,10 @@ def simplify(
     """
     options = dict(locals())
     arrays = arrays_of(options.pop("mesh"))
-    del options["progress"]
     options["tolerance"] = _length(tolerance, arrays)
     options["levels"] = [_length(level, arrays) for level in levels]
     options["line_tolerance"] = _length(line_tolerance, arrays)
-    return Simplification(tuple(level_from(level) for level in _core.simplify(*arrays, options, progress)))
+    return Simplification(tuple(level_from(level) for level in _core.simplify(*arrays, options)))
 
 
 def build_certificate(
@@ -139,22 +145,24 @@ def build_certificate(
     Raises Error where no proof was found. Other arguments and errors as for `hausdorff_distance`.
     """
     arrays = arrays_of(original)
-    request = _core.Request(None, False, threads, time_limit, progress)
-    return _core.certificate(*arrays, *arrays_of(simplified), _required(_length(tolerance, arrays)), request)
+    options = {"threads": threads, "time_limit": time_limit, "progress": progress}
+    return _core.certificate(*arrays, *arrays_of(simplified), _required(_length(tolerance, arrays)), options)
 
 
 class LevelChecker:
     """One original against many levels: what did not change from level to level is not checked again.
 
-    The geometry of the original is copied. Calls from several threads wait for each other.
+    The geometry of the original is copied. Calls from several threads wait for each other. While a call runs, its
+    ``progress`` and the signal handlers of its thread cannot use the checker: they get an Error.
     """
 
     def __init__(self, original: Any, *, threads: int = 0) -> None:
         """Build the tree of the original."""
         arrays = arrays_of(original)
         self._diagonal = _core.describe(*arrays)["bbox_diagonal"]
-        self._checker = _core.LevelChecker(*arrays, threads)
+        self._checker = _core.LevelChecker(*arrays, {"threads": threads})
         self._lock = threading.Lock()
+        self._user: Optional[int] = None
 
     def check(
         self,
@@ -166,10 +174,10 @@ class LevelChecker:
         progress: Optional[Progress] = None,
     ) -> ToleranceCheck:
         """Decide whether a level is within ``tolerance`` of the original, as `check_tolerance` does."""
-        request = _core.Request(None, False, threads, time_limit, progress)
+        options = {"threads": threads, "time_limit": time_limit, "progress": progress}
         wanted = _required(_length_of(tolerance, self._diagonal))
-        with self._lock:
-            return check_from(self._checker.check(*arrays_of(level), wanted, request))
+        with self._use():
+            return check_from(self._checker.check(*arrays_of(level), wanted, options))
 
     def measure(
         self,
@@ -181,9 +189,26 @@ class LevelChecker:
         progress: Optional[Progress] = None,
     ) -> Distance:
         """Measure the distance of a level from the original, as `hausdorff_distance` does."""
-        request = _core.Request(_length_of(error_bound, self._diagonal), False, threads, time_limit, progress)
+        options = {
+            "error_bound": _length_of(error_bound, self._diagonal),
+            "threads": threads,
+            "time_limit": time_limit,
+            "progress": progress,
+        }
+        with self._use():
+            return distance_from(self._checker.measure(*arrays_of(level), options))
+
+    @contextmanager
+    def _use(self) -> Iterator[None]:
+        """Waits for the calls of other threads. One of this thread, which runs this code meanwhile, would never end."""
+        if self._user == threading.get_ident():
+            raise _core.Error("this LevelChecker is in use: a call of this thread has not returned")
         with self._lock:
-            return distance_from(self._checker.measure(*arrays_of(level), request))
+            self._user = threading.get_ident()
+            try:
+                yield
+            finally:
+                self._user = None
 
 
 def _length(value: Optional[Length], original: Arrays) -> Optional[float]:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-from typing import Any, Callable, Optional
+# Options are the keyword arguments of the functions in _api.py by name; one that is left out has its default.
+from typing import Any
 
 import numpy as np
 
@@ -9,30 +10,21 @@ class Error(RuntimeError): ...
 class InvalidInput(Error, ValueError): ...
 class Cancelled(Error): ...
 
-class Request:
-    def __init__(
-        self,
-        error_bound: Optional[float] = None,
-        one_sided: bool = False,
-        threads: int = 0,
-        time_limit: Optional[float] = None,
-        progress: Optional[Callable[[float], Optional[bool]]] = None,
-    ) -> None: ...
-
 class LevelChecker:
-    def __init__(self, vertices: np.ndarray, triangles: np.ndarray, threads: int) -> None: ...
+    def __init__(self, vertices: np.ndarray, triangles: np.ndarray, options: dict[str, Any], /) -> None: ...
     def check(
-        self, vertices: np.ndarray, triangles: np.ndarray, tolerance: float, request: Request
+        self, vertices: np.ndarray, triangles: np.ndarray, tolerance: float, options: dict[str, Any], /
     ) -> dict[str, Any]: ...
-    def measure(self, vertices: np.ndarray, triangles: np.ndarray, request: Request) -> dict[str, Any]: ...
+    def measure(self, vertices: np.ndarray, triangles: np.ndarray, options: dict[str, Any], /) -> dict[str, Any]: ...
 
-def describe(vertices: np.ndarray, triangles: np.ndarray) -> dict[str, Any]: ...
+def describe(vertices: np.ndarray, triangles: np.ndarray, /) -> dict[str, Any]: ...
 def measure(
     vertices_a: np.ndarray,
     triangles_a: np.ndarray,
     vertices_b: np.ndarray,
     triangles_b: np.ndarray,
-    request: Request,
+    options: dict[str, Any],
+    /,
 ) -> dict[str, Any]: ...
 def check(
     vertices_a: np.ndarray,
@@ -40,7 +32,8 @@ def check(
     vertices_b: np.ndarray,
     triangles_b: np.ndarray,
     tolerance: float,
-    request: Request,
+    options: dict[str, Any],
+    /,
 ) -> dict[str, Any]: ...
 def certificate(
     vertices_a: np.ndarray,
@@ -48,11 +41,9 @@ def certificate(
     vertices_b: np.ndarray,
     triangles_b: np.ndarray,
     tolerance: float,
-    request: Request,
+    options: dict[str, Any],
+    /,
 ) -> bytes: ...
 def simplify(
-    vertices: np.ndarray,
-    triangles: np.ndarray,
-    options: dict[str, Any],
-    progress: Optional[Callable[[float], Optional[bool]]],
+    vertices: np.ndarray, triangles: np.ndarray, options: dict[str, Any], /
 ) -> list[dict[str, Any]]: ...

@@ -11,6 +11,7 @@ from ._core import InvalidInput
 
 Arrays = Tuple[np.ndarray, np.ndarray]
 _INDEX_TYPES = (np.uint16, np.int32, np.uint32)
+_SURFACES = ("triangle", "quad", "polygon")
 _ADVICE = "cannot hold exactly: round them, or subtract an origin that is near the mesh"
 
 
@@ -37,7 +38,9 @@ def _parts_of(mesh: Any) -> Tuple[Any, Any]:
     if hasattr(mesh, "points") and hasattr(mesh, "cells") and not hasattr(mesh, "faces"):  # meshio
         return mesh.points, _triangles_of_blocks(mesh.cells)
     if hasattr(mesh, "points") and hasattr(mesh, "faces"):  # pyvista
-        return mesh.points, _triangles_of_faces(np.asarray(mesh.faces))
+        if np.size(getattr(mesh, "strips", ())) > 0:
+            raise InvalidInput("strips of triangles are not read: triangulate() of pyvista makes triangles of them")
+        return mesh.points, _triangles_of_faces(_array(mesh.faces, "faces"))
     raise InvalidInput(
         f"a mesh cannot be made of {type(mesh).__name__}: pass a pair (vertices, triangles), or an object of "
         "trimesh, pyvista, Open3D or meshio"
@@ -64,11 +67,22 @@ def _triangles_of_faces(faces: np.ndarray) -> np.ndarray:
 
 
 def _triangles_of_blocks(blocks: Any) -> np.ndarray:
-    """Triangles of the blocks of a meshio mesh that are surfaces."""
-    surfaces = [np.asarray(block.data) for block in blocks if block.type in ("triangle", "quad", "polygon")]
+    """Triangles of the blocks of a meshio mesh that are surfaces; points, lines and volumes are left out."""
+    surfaces = []
+    for block in blocks:
+        if block.type in _SURFACES:
+            surfaces.append(_array(block.data, f"cells of type {block.type}"))
+        elif _is_surface(block):
+            raise InvalidInput(f"cells of type {block.type} are not read: only triangles, quads and polygons are")
     if not surfaces:
         raise InvalidInput("the meshio mesh has no block of triangles, quads or polygons")
     return np.concatenate([_fans(block) for block in surfaces])
+
+
+def _is_surface(block: Any) -> bool:
+    """Whether its cells are two-dimensional: by the attribute that blocks of meshio have, or by the name of the type."""
+    dimension = getattr(block, "dim", None)
+    return any(name in block.type.lower() for name in _SURFACES) if dimension is None else dimension == 2
 
 
 def _fans(polygons: np.ndarray) -> np.ndarray:
@@ -77,8 +91,16 @@ def _fans(polygons: np.ndarray) -> np.ndarray:
     return np.stack(fans, axis=1).reshape(-1, 3) if fans else np.zeros((0, 3), polygons.dtype)
 
 
+def _array(values: Any, name: str) -> np.ndarray:
+    """An array of what can be one."""
+    try:
+        return np.asarray(values)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InvalidInput(f"{name} cannot be made an array of numpy: {error}") from error
+
+
 def _coordinates(values: Any) -> np.ndarray:
-    array = np.asarray(values)
+    array = _array(values, "vertices")
     if isinstance(values, (list, tuple)):
         _require_unrounded(values, array)
     if array.dtype not in (np.float32, np.float64):
@@ -119,7 +141,9 @@ def _are_equal(doubles: np.ndarray, numbers: np.ndarray) -> bool:
 
 
 def _indices(values: Any) -> np.ndarray:
-    array = np.asarray(values)
+    array = _array(values, "triangles")
+    if array.shape == (0,):  # an empty list, of which numpy makes floats
+        return np.zeros((0, 3), np.uint32)
     if array.dtype.kind not in "iu":
         raise InvalidInput(f"triangles must be integers, not {array.dtype}")
     if array.dtype not in _INDEX_TYPES:

@@ -16,14 +16,15 @@ class Direction:
     """How far one mesh is from another: lower <= max over the first of the distance to the second <= upper.
 
     ``from_point`` on the first mesh and ``nearest_point``, its closest point on the second, realise the lower bound up
-    to rounding. Where ``searched`` is False the bounds are 0 and infinity, and the points mean nothing.
+    to rounding. Where ``searched`` is False the outcome is "not_searched", the bounds are 0 and infinity, and the
+    points mean nothing.
     """
 
     lower: float
     upper: float
     searched: bool
     outcome: str
-    """"converged", "exceeds" (the tolerance), "budget" (the time limit) or "precision" (of doubles)."""
+    """"converged", "exceeds" (the tolerance), "budget" (the time limit), "precision" (of doubles) or "not_searched"."""
     from_point: Point
     from_triangle: int
     nearest_point: Point

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <pybind11/stl.h>
-
 #include <memory>
 #include <optional>
 
@@ -10,6 +8,7 @@
 #include "meshbound/distance.h"
 #include "meshbound/level_checker.h"
 #include "meshbound/mesh_summary.h"
+#include "options.h"
 #include "results.h"
 #include "watched_run.h"
 
@@ -19,7 +18,7 @@ using namespace py::literals;
 namespace meshbound::python {
 namespace {
 
-/// What every measurement can be asked for.
+/// What every measurement can be asked for, each by a keyword argument of the same name.
 struct Request {
   std::optional<double> error_bound;
   bool one_sided = false;
@@ -27,6 +26,20 @@ struct Request {
   std::optional<double> time_limit;
   py::object progress;
 };
+
+/// Throws `InvalidInput` for values that an option cannot have.
+Request request_of(const py::dict& given) {
+  Request request;
+  take(given, "error_bound", "a length", request.error_bound);
+  take(given, "one_sided", "True or False", request.one_sided);
+  take(given, "threads", "a number of threads", request.threads);
+  take(given, "time_limit", "seconds", request.time_limit);
+  request.progress = taken_progress(given);
+  if (request.error_bound && !(*request.error_bound >= 0))
+    throw InvalidInput("the error bound must be a length of 0 or more");
+  if (request.time_limit && !(*request.time_limit >= 0)) throw InvalidInput("the time limit must be 0 seconds or more");
+  return request;
+}
 
 DistanceOptions library_options(const Request& request, Watch& watch) {
   DistanceOptions options;
@@ -54,16 +67,9 @@ ToleranceCheck check(const MeshView& a, const MeshView& b, double tolerance, boo
   return one_sided ? check_one_sided_tolerance(a, b, tolerance, options) : check_tolerance(a, b, tolerance, options);
 }
 
-void require_error_bound(const Request& request) {
-  if (request.error_bound && !(*request.error_bound >= 0))
-    throw InvalidInput("the error bound must be a length of 0 or more");
-  if (request.time_limit && !(*request.time_limit >= 0)) throw InvalidInput("the time limit must be 0 seconds or more");
-}
-
 /// Calls search(options) as `run_watched` does and returns its answer.
 template <class Search>
 auto watched(const Request& request, const Search& search) {
-  require_error_bound(request);
   std::optional<decltype(search(DistanceOptions{}))> result;
   run_watched(request.progress, [&](Watch& watch) { result.emplace(search(library_options(request, watch))); });
   return to_dict(*result);
@@ -77,19 +83,21 @@ py::dict describe(const py::array& vertices, const py::array& triangles) {
                   "closed"_a = summary.closed, "bbox_diagonal"_a = summary.bbox_diagonal);
 }
 
-std::unique_ptr<LevelChecker> level_checker(const py::array& vertices, const py::array& triangles, int threads) {
+std::unique_ptr<LevelChecker> level_checker(const py::array& vertices, const py::array& triangles,
+                                            const py::dict& given) {
   const MeshView original = view_of(vertices, triangles);
+  const Request request = request_of(given);
   std::unique_ptr<LevelChecker> checker;
   run_watched(py::none(), [&](Watch& watch) {
-    checker = std::make_unique<LevelChecker>(original, BvhOptions{threads, {.cancel = &watch.cancel}});
+    checker = std::make_unique<LevelChecker>(original, BvhOptions{request.threads, {.cancel = &watch.cancel}});
   });
   return checker;
 }
 
 py::bytes certificate(const py::array& vertices_a, const py::array& triangles_a, const py::array& vertices_b,
-                      const py::array& triangles_b, double tolerance, const Request& request) {
+                      const py::array& triangles_b, double tolerance, const py::dict& given) {
   const MeshView a = view_of(vertices_a, triangles_a), b = view_of(vertices_b, triangles_b);
-  require_error_bound(request);
+  const Request request = request_of(given);
   std::optional<Certificate> proof;
   run_watched(request.progress, [&](Watch& watch) {
     CertificateOptions options;
@@ -103,27 +111,21 @@ py::bytes certificate(const py::array& vertices_a, const py::array& triangles_a,
   return {reinterpret_cast<const char*>(proof->bytes.data()), proof->bytes.size()};
 }
 
-Request request(std::optional<double> error_bound, bool one_sided, int threads, std::optional<double> time_limit,
-                py::object progress) {
-  return {error_bound, one_sided, threads, time_limit, std::move(progress)};
-}
-
 }  // namespace
 
 void bind_measurement(py::module_& module) {
-  py::class_<Request>(module, "Request")
-      .def(py::init(&request), "error_bound"_a = py::none(), "one_sided"_a = false, "threads"_a = 0,
-           "time_limit"_a = py::none(), "progress"_a = py::none());
   module.def("describe", &describe);
   module.def("certificate", &certificate);
   module.def("measure", [](const py::array& va, const py::array& ta, const py::array& vb, const py::array& tb,
-                           const Request& wanted) {
+                           const py::dict& given) {
     const MeshView a = view_of(va, ta), b = view_of(vb, tb);
+    const Request wanted = request_of(given);
     return watched(wanted, [&](const DistanceOptions& options) { return measure(a, b, wanted.one_sided, options); });
   });
   module.def("check", [](const py::array& va, const py::array& ta, const py::array& vb, const py::array& tb,
-                         double tolerance, const Request& wanted) {
+                         double tolerance, const py::dict& given) {
     const MeshView a = view_of(va, ta), b = view_of(vb, tb);
+    const Request wanted = request_of(given);
     return watched(wanted,
                    [&](const DistanceOptions& options) { return check(a, b, tolerance, wanted.one_sided, options); });
   });
@@ -131,16 +133,16 @@ void bind_measurement(py::module_& module) {
       .def(py::init(&level_checker))
       .def("check",
            [](LevelChecker& self, const py::array& vertices, const py::array& triangles, double tolerance,
-              const Request& wanted) {
+              const py::dict& given) {
              const MeshView level = view_of(vertices, triangles);
-             return watched(wanted,
+             return watched(request_of(given),
                             [&](const DistanceOptions& options) { return self.check(level, tolerance, options); });
            })
-      .def("measure",
-           [](LevelChecker& self, const py::array& vertices, const py::array& triangles, const Request& wanted) {
-             const MeshView level = view_of(vertices, triangles);
-             return watched(wanted, [&](const DistanceOptions& options) { return self.measure(level, options); });
-           });
+      .def("measure", [](LevelChecker& self, const py::array& vertices, const py::array& triangles,
+                         const py::dict& given) {
+        const MeshView level = view_of(vertices, triangles);
+        return watched(request_of(given), [&](const DistanceOptions& options) { return self.measure(level, options); });
+      });
 }
 
 }  // namespace meshbound::python

@@ -26,7 +26,7 @@ py::dict to_dict(const OneSidedDistance& direction) {
   result["lower"] = direction.bounds.lower;
   result["upper"] = direction.bounds.upper;
   result["searched"] = was_searched(direction);
-  result["outcome"] = to_string(direction.outcome);
+  result["outcome"] = was_searched(direction) ? to_string(direction.outcome) : "not_searched";
   result["from_point"] = to_tuple(direction.witness.from.position);
   result["from_triangle"] = direction.witness.from.triangle;
   result["nearest_point"] = to_tuple(direction.witness.nearest.position);

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <pybind11/stl.h>
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "bind.h"
 #include "buffers.h"
 #include "meshbound/report.h"
 #include "meshbound/simplify.h"
+#include "options.h"
 #include "results.h"
 #include "watched_run.h"
 
@@ -16,38 +13,6 @@ namespace py = pybind11;
 
 namespace meshbound::python {
 namespace {
-
-/// The value of `name` among the keyword arguments as a `Value`; absent where it is None or left out. Throws
-/// `InvalidInput` where it cannot be one: `name` must be `description`.
-template <class Value>
-std::optional<Value> taken(const py::dict& given, const char* name, const char* description) {
-  if (!given.contains(name) || given[name].is_none()) return std::nullopt;
-  try {
-    return given[name].cast<Value>();
-  } catch (const py::cast_error&) {
-    throw InvalidInput(std::string(name) + " must be " + description);
-  }
-}
-
-template <class Value>
-void take(const py::dict& given, const char* name, const char* description, Value& value) {
-  if (auto found = taken<Value>(given, name, description)) value = std::move(*found);
-}
-
-template <class Value>
-void take(const py::dict& given, const char* name, const char* description, std::optional<Value>& value) {
-  if (auto found = taken<Value>(given, name, description)) value = found;
-}
-
-/// One of two words; throws `InvalidInput` for others.
-template <class Choice>
-void take_word(const py::dict& given, const char* name, const char* first, const char* second, Choice& choice) {
-  const std::string description = std::string("\"") + first + "\" or \"" + second + "\"";
-  const auto word = taken<std::string>(given, name, description.c_str());
-  if (!word) return;
-  if (*word != first && *word != second) throw InvalidInput(std::string(name) + " must be " + description);
-  choice = static_cast<Choice>(*word == second);
-}
 
 SimplifyOptions library_options(const py::dict& given) {
   SimplifyOptions options;
@@ -95,10 +60,10 @@ py::dict to_dict(SimplifiedLevel& level) {
 }
 
 /// `given` are the keyword arguments of meshbound.simplify, lengths in model units.
-py::list simplify(const py::array& vertices, const py::array& triangles, const py::dict& given,
-                  const py::object& progress) {
+py::list simplify(const py::array& vertices, const py::array& triangles, const py::dict& given) {
   const MeshView view = view_of(vertices, triangles);
   SimplifyOptions options = library_options(given);
+  const py::object progress = taken_progress(given);
   SimplifyResult result;
   run_watched(progress, [&](Watch& watch) {
     options.cancel = &watch.cancel;

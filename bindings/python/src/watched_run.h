@@ -20,8 +20,8 @@ struct Watch {
 
 /// Runs `work` on a thread of its own, with the GIL released, so that other threads of Python go on. Meanwhile the
 /// calling thread runs signal handlers, so that Ctrl-C works, and calls `progress` (may be None) with the share that is
-/// done, 20 times a second. An exception of either, or an answer that is false and not None, ends the work early.
-/// Throws what Python raised, else what `work` threw; `Interrupted` where `progress` answered so.
+/// done, at most 20 times a second. An exception of either, or an answer that is false and not None, ends the work
+/// early. Throws what Python raised, else what `work` threw; `Interrupted` where `progress` answered so.
 void run_watched(const pybind11::object& progress, const std::function<void(Watch&)>& work);
 
 }  // namespace meshbound::python

@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: MIT
 """The Python package: arrays of every kind, results, objects of other packages, progress, Ctrl-C, threads."""
 
+import ast
 import dataclasses
 import math
 import os
+import re
 import signal
 import subprocess
 import sys
 import threading
 import types
 import unittest
+from pathlib import Path
 
 import numpy as np
 
@@ -45,7 +48,9 @@ class Distances(unittest.TestCase):
         small = sheet(4)
         distance = meshbound.hausdorff_distance(small, sheet(8), one_sided=True)
         self.assertLess(distance.upper, 1e-4)
+        self.assertTrue(distance.a_to_b.searched)
         self.assertFalse(distance.b_to_a.searched)
+        self.assertEqual((distance.a_to_b.outcome, distance.b_to_a.outcome), ("converged", "not_searched"))
         self.assertGreater(meshbound.hausdorff_distance(small, sheet(8)).lower, 1)
 
     def test_error_bound_as_a_percentage_of_the_diagonal(self):
@@ -179,6 +184,9 @@ class Arrays(unittest.TestCase):
             ((vertices, triangles + 10), "there are only 16"),
             ((vertices, nothing), "no triangles"),
             ((infinite, triangles), "vertex 5"),
+            ((vertices, []), "no triangles"),
+            (([[0, 0, 0], [1, 2]], triangles), "^vertices cannot be made an array"),
+            ((vertices, [[0, 1, 2], [1]]), "^triangles cannot be made an array"),
             ((vertices,), "pair"),
             (object(), "object"),
         ):
@@ -242,6 +250,26 @@ class Arrays(unittest.TestCase):
             for value in values:
                 with self.subTest(name, value=value), self.assertRaisesRegex(meshbound.InvalidInput, f"{name} must be"):
                     meshbound.simplify(mesh, 1, **{name: value})
+        checker = meshbound.LevelChecker(mesh)
+        meshes_of = {
+            meshbound.simplify: (mesh, 1),
+            meshbound.hausdorff_distance: (mesh, mesh),
+            meshbound.check_tolerance: (mesh, mesh, 1),
+            meshbound.build_certificate: (mesh, mesh, 1),
+            meshbound.LevelChecker: (mesh,),
+            checker.check: (mesh, 1),
+            checker.measure: (mesh,),
+        }
+        for function, meshes in meshes_of.items():
+            options = {"threads": (1.5, 2**31, "two")}
+            if function is not meshbound.LevelChecker:
+                options.update(time_limit=("x", [1]), progress=(5, "f"))
+            if function in (meshbound.hausdorff_distance, meshbound.check_tolerance):
+                options.update(one_sided=("yes", []))
+            for name, value in ((name, value) for name, values in options.items() for value in values):
+                with self.subTest(function, **{name: value}):
+                    with self.assertRaisesRegex(meshbound.InvalidInput, f"^{name} must be [^\n]*$"):
+                        function(*meshes, **{name: value})
         for length in ([1], object(), 10**400):
             with self.subTest(length), self.assertRaisesRegex(meshbound.InvalidInput, "is no length"):
                 meshbound.simplify(mesh, length)
@@ -274,6 +302,22 @@ class ObjectsOfOthers(unittest.TestCase):
                 meshbound.describe(types.SimpleNamespace(points=v, faces=np.array(broken)))
         with self.assertRaisesRegex(meshbound.InvalidInput, "no block"):
             meshbound.describe(types.SimpleNamespace(points=v, cells=[block(type="line", data=t[:, :2])]))
+
+    def test_surfaces_that_are_not_read_are_named(self):
+        v, t = sheet(4)
+        block = types.SimpleNamespace
+        flat = block(type="triangle", data=t)
+        for other in ("triangle6", "quad8", "polygon5", "VTK_LAGRANGE_QUADRILATERAL"):
+            for dimension in ({}, {"dim": 2}):
+                mesh = types.SimpleNamespace(points=v, cells=[flat, block(type=other, data=t, **dimension)])
+                with self.subTest(other), self.assertRaisesRegex(meshbound.InvalidInput, f"type {other} are not read"):
+                    meshbound.describe(mesh)
+        strips = np.array([4, 0, 1, 4, 5])
+        faces = np.hstack([np.full((len(t), 1), 3), t]).ravel()
+        with self.assertRaisesRegex(meshbound.InvalidInput, "strips"):
+            meshbound.describe(types.SimpleNamespace(points=v, faces=faces, strips=strips))
+        self.assert_is_sheet(types.SimpleNamespace(points=v, faces=faces, strips=strips[:0]))
+        self.assert_is_sheet(types.SimpleNamespace(points=v, cells=[flat, block(type="tetra", data=t), block(type="pixel", dim=1)]))
 
     def test_packages(self):
         makers = {
@@ -319,6 +363,21 @@ class LongCalls(unittest.TestCase):
         with self.assertRaisesRegex(KeyError, "from progress"):
             meshbound.simplify(self.large, "0.05%", progress=fail)
 
+    def test_a_checker_that_is_in_use_says_so(self):
+        checker = meshbound.LevelChecker(self.large)
+        level = lifted(self.large, 0.5)
+        for call in (lambda: checker.check(level, 1), lambda: checker.measure(level)):
+            calls = []
+
+            def use_again(fraction):
+                calls.append(fraction)
+                call()
+
+            with self.assertRaisesRegex(meshbound.Error, "in use"):
+                while not calls:  # a call on a machine that is very fast may end before it reports anything
+                    checker.measure(level, error_bound=0, progress=use_again)
+        self.assertTrue(checker.check(self.large, 0), "it goes on after that")
+
     def assert_other_threads_go_on(self, call):
         steps, is_done = [], threading.Event()
 
@@ -346,7 +405,7 @@ class LongCalls(unittest.TestCase):
             self.assert_other_threads_go_on(lambda: meshbound.describe(mesh))
         checker_of = _core.LevelChecker  # without the description of the mesh that meshbound.LevelChecker makes first
         with self.subTest("LevelChecker"):
-            self.assert_other_threads_go_on(lambda: checker_of(*mesh, 1))
+            self.assert_other_threads_go_on(lambda: checker_of(*mesh, {"threads": 1}))
 
     def test_interrupt_from_the_keyboard(self):
         # The handler runs while threads of the call are still there, and its exception ends the call.
@@ -371,6 +430,24 @@ class LongCalls(unittest.TestCase):
             child.send_signal(signal.SIGINT)
             self.assertEqual(child.stdout.readline(), b"during the call\n")
             self.assertEqual(child.wait(60), 42)
+
+
+class CompiledPart(unittest.TestCase):
+    def test_stub_has_the_parameters_of_the_functions(self):
+        # pybind11 begins a docstring with the signature, in which parameters without a name are arg0, arg1, ...
+        stub = ast.parse(Path(_core.__file__).with_name("_core.pyi").read_text())
+        owners = [(_core, stub), *((getattr(_core, c.name), c) for c in stub.body if isinstance(c, ast.ClassDef))]
+        seen = 0
+        for owner, node in owners:
+            for function in (one for one in node.body if isinstance(one, ast.FunctionDef)):
+                signature = getattr(owner, function.name).__doc__.splitlines()[0]
+                names = re.findall(r"(\w+): ", signature)
+                unnamed = [name for name in names if re.fullmatch(r"self|arg\d+", name)]
+                with self.subTest(signature):
+                    self.assertEqual([one.arg for one in function.args.args], names[len(unnamed):])
+                    self.assertEqual(len(function.args.posonlyargs), len(unnamed))
+                seen += 1
+        self.assertEqual(seen, 8)
 
 
 if __name__ == "__main__":
