@@ -26,4 +26,5 @@ ExternalProject_Add(npm_package
   BUILD_COMMAND ${wrapper} ${CMAKE_COMMAND} --build ${wasm_dir} --target npm --parallel ${cores}
   BUILD_ALWAYS ON
   BUILD_BYPRODUCTS ${MESHBOUND_NPM}/engine.js ${MESHBOUND_NPM}/engine.wasm ${MESHBOUND_NPM}/meshbound.js
+    ${MESHBOUND_NPM}/options.js
   INSTALL_COMMAND "")

@@ -19,7 +19,7 @@ export interface Mesh {
   stride?: number;
 }
 
-/** Thrown for a mesh or an option that no bound can be given for. */
+/** Thrown for a mesh or an option that no bound can be given for, and for options of another type or name than here. */
 export class InvalidInput extends Error {}
 
 export interface MeshFacts {

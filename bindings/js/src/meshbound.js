@@ -2,6 +2,10 @@
 // meshbound in JavaScript: certified Hausdorff distances between triangle meshes, and simplification with a proven
 // bound. The engine is WebAssembly on one thread; index.d.ts documents every function.
 import createEngine from './engine.js';
+import {
+  arrayLike, chosen, flag, InvalidInput, isNotNegative, length, levelsOf, number, requiredTolerance, requireKnown,
+  requireStride, timeLimitOf,
+} from './options.js';
 
 const OUTCOMES = ['converged', 'exceeds', 'budget', 'precision', 'not_searched'];
 const VERDICTS = ['within', 'exceeds', 'undecided'];
@@ -25,8 +29,11 @@ export const ready = loadEngine().then((loaded) => {
   engine = loaded;
 });
 
-/** A mesh or an option that no bound can be given for; `message` says what and where. */
-export class InvalidInput extends Error {}
+/** An address that a function of the engine returned: WebAssembly's numbers are signed, negative from 2 GB on. */
+const addressOf = (signed) => signed >>> 0;
+
+/** The number of vertices of a mesh; the last one need not fill its stride. */
+const vertexCount = ({ positions, stride = 3 }) => Math.floor((positions.length + stride - 3) / stride);
 
 /** Memory of the engine that is freed when `use` has returned. */
 class Scratch {
@@ -43,7 +50,7 @@ class Scratch {
   }
 
   room(bytes) {
-    const address = engine._malloc(Math.max(bytes, 8));
+    const address = addressOf(engine._malloc(Math.max(bytes, 8)));
     if (!address) throw new RangeError('meshbound has run out of memory');
     this.#addresses.push(() => engine._free(address));
     return address;
@@ -55,23 +62,23 @@ class Scratch {
     return address;
   }
 
-  mesh({ positions, indices, stride = 3 }) {
+  mesh(given) {
+    const { positions, indices, stride = 3 } = given;
     if (!(positions instanceof Float32Array || positions instanceof Float64Array))
       throw new InvalidInput('positions must be a Float32Array or a Float64Array');
     if (!(indices instanceof Uint16Array || indices instanceof Uint32Array))
       throw new InvalidInput('indices must be a Uint16Array or a Uint32Array');
-    if (!Number.isInteger(stride) || stride < 3) throw new InvalidInput('stride must be a whole number, 3 or more');
+    requireStride(stride);
     if (indices.length % 3 !== 0) throw new InvalidInput('the number of indices must be a multiple of three');
-    const vertices = Math.floor((positions.length + stride - 3) / stride);
-    const mesh = engine._js_mesh_new(
-      this.copy(positions), positions instanceof Float64Array ? 1 : 0, stride * positions.BYTES_PER_ELEMENT, vertices,
-      this.copy(indices), indices instanceof Uint32Array ? 1 : 0, indices.length / 3);
+    const mesh = addressOf(engine._js_mesh_new(
+      this.copy(positions), positions instanceof Float64Array ? 1 : 0, stride * positions.BYTES_PER_ELEMENT,
+      vertexCount(given), this.copy(indices), indices instanceof Uint32Array ? 1 : 0, indices.length / 3));
     this.#addresses.push(() => engine._js_mesh_free(mesh));
     return mesh;
   }
 
   simplifyOptions() {
-    const options = engine._js_simplify_options_new();
+    const options = addressOf(engine._js_simplify_options_new());
     this.#addresses.push(() => engine._js_simplify_options_free(options));
     return options;
   }
@@ -86,7 +93,7 @@ const doubles = (address, count) => engine.HEAPF64.slice(address / 8, address / 
 
 function requireSuccess(status) {
   if (status === 0) return;
-  const message = engine.UTF8ToString(engine._mb_error_message());
+  const message = engine.UTF8ToString(addressOf(engine._mb_error_message()));
   if (status === 1) throw new InvalidInput(message);
   throw status === 3 ? new RangeError(`meshbound has run out of memory: ${message}`) : new Error(message);
 }
@@ -120,45 +127,37 @@ export function describe(mesh) {
   });
 }
 
-/** The number of an option; where it is left out, `none`, which the engine takes for no value. */
-function number(options, name, none, isValid, description) {
-  const value = options[name];
-  if (value === undefined || value === null) return none;
-  if (typeof value === 'number' && isValid(value)) return value;
-  throw new InvalidInput(`${name} must be ${description}, not ${String(value)}`);
-}
-
-const isCount = (x) => Number.isInteger(x) && x >= 0 && x < 2 ** 32 - 1;
-const isNotNegative = (x) => x >= 0;
-const length = (options, name) => number(options, name, -1, isNotNegative, 'a length of 0 or more');
-const timeLimitOf = (options) => number(options, 'timeLimit', Infinity, isNotNegative, 'seconds, 0 or more');
-
 export function hausdorffDistance(a, b, options = {}) {
+  requireKnown(options, ['errorBound', 'tolerance', 'oneSided', 'timeLimit']);
   return Scratch.with((scratch) => {
     const out = scratch.room(DISTANCE_SIZE * 8);
     requireSuccess(engine._js_measure(
       scratch.mesh(a), scratch.mesh(b), length(options, 'errorBound'), length(options, 'tolerance'),
-      timeLimitOf(options), options.oneSided ? 1 : 0, out));
+      timeLimitOf(options), flag(options, 'oneSided'), out));
     return distanceFrom(doubles(out, DISTANCE_SIZE));
   });
 }
 
 export function check(a, b, tolerance, options = {}) {
+  requireKnown(options, ['oneSided', 'timeLimit']);
   return Scratch.with((scratch) => {
     const out = scratch.room((1 + DISTANCE_SIZE) * 8);
     requireSuccess(engine._js_check(
-      scratch.mesh(a), scratch.mesh(b), tolerance, timeLimitOf(options), options.oneSided ? 1 : 0, out));
+      scratch.mesh(a), scratch.mesh(b), requiredTolerance({ tolerance }), timeLimitOf(options),
+      flag(options, 'oneSided'), out));
     const values = doubles(out, 1 + DISTANCE_SIZE);
     return { verdict: VERDICTS[values[0]], tolerance, distance: distanceFrom(values.subarray(1)) };
   });
 }
 
 export function buildCertificate(original, simplified, tolerance, options = {}) {
+  requireKnown(options, ['timeLimit']);
   return Scratch.with((scratch) => {
     const certificate = scratch.room(4);
     const out = scratch.room(2 * 8);
     requireSuccess(engine._js_certify(
-      scratch.mesh(original), scratch.mesh(simplified), tolerance, timeLimitOf(options), certificate, out));
+      scratch.mesh(original), scratch.mesh(simplified), requiredTolerance({ tolerance }), timeLimitOf(options),
+      certificate, out));
     scratch.freeAtEnd(engine._mb_certificate_free, engine.HEAPU32[certificate / 4]);
     const [address, size] = doubles(out, 2);
     return engine.HEAPU8.slice(address, address + size);
@@ -191,6 +190,7 @@ export function readMesh(bytes, format) {
 }
 
 export function writeMesh(mesh, format, options = {}) {
+  requireKnown(options, ['precision']);
   return withFile(format, (scratch, name, address) => {
     const single = chosen(options, 'precision', ['double', 'single']);
     requireSuccess(engine._js_write(address, scratch.mesh(mesh), single));
@@ -203,6 +203,7 @@ function levelFrom(scratch, simplification, index) {
   requireSuccess(engine._js_level(simplification, index, out));
   const values = doubles(out, LEVEL_SIZE);
   const [tolerance, verdict, endedBy, vertices, triangles, positions, indices, sourceVertices, sourceTriangles] = values;
+  if (!(triangles > 0)) throw new Error('internal error: the engine returned a level without triangles');
   const [certificate, certificateSize, lineLower, lineUpper] = values.subarray(9);
   return {
     tolerance,
@@ -218,10 +219,16 @@ function levelFrom(scratch, simplification, index) {
   };
 }
 
-function chosen(options, name, words) {
-  const word = options[name] ?? words[0];
-  if (!words.includes(word)) throw new InvalidInput(`${name} must be one of: ${words.join(', ')}`);
-  return word === words[1] ? 1 : 0;
+const SIMPLIFY_OPTIONS = [
+  'tolerance', 'levels', 'targetFaces', 'targetRatio', 'effort', 'placement', 'precision', 'onExceed', 'prune',
+  'preserveBoundary', 'lockedVertices', 'featureAngle', 'lineTolerance', 'featureEdges', 'certificate', 'timeLimit',
+];
+const isCount = (x) => Number.isInteger(x) && x >= 0 && x < 2 ** 32 - 1;
+
+/** A byte for each vertex; 0, no address, where no vertex is locked. */
+function copyLocks(scratch, lockedVertices) {
+  if (lockedVertices === null) return 0;
+  return scratch.copy(Uint8Array.from(lockedVertices, (locked) => (locked ? 1 : 0)));
 }
 
 /** Pairs of vertices as the engine reads them. */
@@ -233,10 +240,9 @@ function copyEdges(scratch, featureEdges) {
 }
 
 function setOptions(scratch, options, target) {
-  const { lockedVertices } = options;
-  const featureEdges = options.featureEdges ?? [], levels = Float64Array.from(options.levels ?? []);
+  const featureEdges = arrayLike(options, 'featureEdges') ?? [], levels = levelsOf(options);
   engine._js_set_lengths(
-    target, options.tolerance ?? NaN, length(options, 'lineTolerance'),
+    target, requiredTolerance(options), length(options, 'lineTolerance'),
     number(options, 'featureAngle', -1, isNotNegative, 'an angle in radians, 0 to pi'), timeLimitOf(options));
   engine._js_set_targets(
     target, number(options, 'targetFaces', -1, isCount, 'a whole number, 0 or more'),
@@ -244,19 +250,19 @@ function setOptions(scratch, options, target) {
   engine._js_set_choices(
     target, chosen(options, 'effort', ['normal', 'high']), chosen(options, 'placement', ['optimal', 'subset']),
     chosen(options, 'precision', ['double', 'single']), chosen(options, 'onExceed', ['skip', 'stop']),
-    options.prune ? 1 : 0, options.preserveBoundary ? 1 : 0, options.certificate ? 1 : 0);
+    flag(options, 'prune'), flag(options, 'preserveBoundary'), flag(options, 'certificate'));
   engine._js_set_arrays(
-    target, scratch.copy(levels), levels.length,
-    lockedVertices ? scratch.copy(Uint8Array.from(lockedVertices, (locked) => (locked ? 1 : 0))) : 0,
+    target, scratch.copy(levels), levels.length, copyLocks(scratch, arrayLike(options, 'lockedVertices')),
     copyEdges(scratch, featureEdges), featureEdges.length / 2);
 }
 
-export function simplify(mesh, options) {
+export function simplify(mesh, options = {}) {
+  requireKnown(options, SIMPLIFY_OPTIONS);
   return Scratch.with((scratch) => {
     const target = scratch.simplifyOptions();
     setOptions(scratch, options, target);
     const original = scratch.mesh(mesh);
-    if (options.lockedVertices && options.lockedVertices.length !== describe(mesh).vertices)
+    if ((options.lockedVertices ?? null) !== null && options.lockedVertices.length !== vertexCount(mesh))
       throw new InvalidInput('lockedVertices must have a value for each vertex');
     const result = scratch.room(4);
     requireSuccess(engine._js_simplify(original, target, result));
@@ -268,4 +274,5 @@ export function simplify(mesh, options) {
   });
 }
 
+export { InvalidInput } from './options.js';
 export { MeshboundSimplifier } from './simplifier.js';

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What stands in for MeshoptSimplifier, for instance in simplify() of gltf-transform: the same arguments, with a bound
 // that is proven.
-import { InvalidInput, ready, simplify } from './meshbound.js';
+import { ready, simplify } from './meshbound.js';
+import { InvalidInput, requireStride } from './options.js';
 
 /** Positions where vertices stand, one vertex for each: copies of a vertex along a seam become one. */
 function weld(positions, stride) {
+  requireStride(stride);
   const count = Math.floor((positions.length + stride - 3) / stride);
   const bits = new Uint32Array(3 * count);
   const packed = new Float32Array(bits.buffer);
@@ -125,6 +127,7 @@ function originalIndices(level, chooser) {
 }
 
 function largestExtent(positions, stride) {
+  requireStride(stride);
   let extent = 0;
   for (let k = 0; k < 3; ++k) {
     let low = Infinity, high = -Infinity;

@@ -142,16 +142,27 @@ test('numbers that an option cannot have are refused, not taken for none', () =>
   const mesh = sheet(4, 0);
   const simplifies = (options) => meshbound.simplify(mesh, { tolerance: 1, ...options });
   const measures = (options) => meshbound.hausdorffDistance(mesh, mesh, options);
+  const decides = (options) => meshbound.check(mesh, mesh, 1, options);
+  const certifies = (options) => meshbound.buildCertificate(mesh, mesh, 1, options);
   for (const [call, name, values] of [
     [simplifies, 'lineTolerance', [-0.1, NaN, '0.1']],
     [simplifies, 'featureAngle', [-1, NaN]],
     [simplifies, 'targetRatio', [-0.5, NaN]],
     [simplifies, 'targetFaces', [-1, NaN, 10.5, Infinity, 2 ** 32]],
     [simplifies, 'timeLimit', [-1, NaN]],
-    [simplifies, 'featureEdges', [[0, 1, 2], [[0, 1], [1, 2]], [0, -1], [0, 0.5], [0, 2 ** 32 + 1]]],
+    [simplifies, 'levels', [5, '0.01', [NaN], [-1], ['0.1'], [true], [null]]],
+    [simplifies, 'lockedVertices', [0, NaN, 16, true, '1111111111111111']],
+    [simplifies, 'prune', [1, 'no']],
+    [simplifies, 'preserveBoundary', [0, 'no']],
+    [simplifies, 'certificate', [1, 'no']],
+    [simplifies, 'featureEdges', [5, '01', [0, 1, 2], [[0, 1], [1, 2]], [0, -1], [0, 0.5], [0, 2 ** 32 + 1]]],
     [measures, 'errorBound', [-1, NaN, '1']],
     [measures, 'tolerance', [-5, NaN]],
     [measures, 'timeLimit', [-1, NaN]],
+    [measures, 'oneSided', [1, 'no']],
+    [decides, 'oneSided', [1, 'no']],
+    [decides, 'timeLimit', [-1, NaN]],
+    [certifies, 'timeLimit', [-1, NaN]],
   ]) {
     for (const value of values) {
       const isRefusal = (error) =>
@@ -163,6 +174,33 @@ test('numbers that an option cannot have are refused, not taken for none', () =>
   assert.equal(simplifies({ levels: new Set([0.1, 0.5]) }).levels.length, 3);
   assert.throws(() => simplifies({ featureEdges: [0, 16] }), meshbound.InvalidInput);
   assert.equal(simplifies({ featureEdges: [0, 1, 1, 2] }).level.verdict, 'within');
+});
+
+test('a tolerance must be given, as a number', () => {
+  const mesh = sheet(4, 0);
+  for (const tolerance of [undefined, null, true, '1', NaN, -1, 1n])
+    for (const call of [
+      () => meshbound.check(mesh, mesh, tolerance),
+      () => meshbound.buildCertificate(mesh, mesh, tolerance),
+      () => meshbound.simplify(mesh, { tolerance }),
+    ])
+      assert.throws(call, (error) => error instanceof meshbound.InvalidInput && /^tolerance must be/.test(error.message));
+});
+
+test('options that do not exist are named', () => {
+  const mesh = sheet(4, 0);
+  for (const call of [
+    (options) => meshbound.simplify(mesh, { tolerance: 1, ...options }),
+    (options) => meshbound.hausdorffDistance(mesh, mesh, options),
+    (options) => meshbound.check(mesh, mesh, 1, options),
+    (options) => meshbound.buildCertificate(mesh, mesh, 1, options),
+    (options) => meshbound.writeMesh(mesh, 'ply', options),
+  ])
+    assert.throws(() => call({ faceTolerances: [1] }), (error) =>
+      error instanceof meshbound.InvalidInput && /no option faceTolerances: .*(timeLimit|precision)/.test(error.message));
+  for (const options of [null, 5, 'single'])
+    assert.throws(() => meshbound.hausdorffDistance(mesh, mesh, options), /^Error: options must be an object/);
+  assert.throws(() => meshbound.simplify(mesh), /tolerance must be given/);
 });
 
 /** A sheet that is cut into two charts: vertices along the cut are there twice. */
@@ -242,5 +280,11 @@ test('what is no mesh is refused in place of MeshoptSimplifier', () => {
     (error) => error instanceof meshbound.InvalidInput && reason.test(error.message));
   refused(indices.map((v, i) => (i === 5 ? 99999 : v)), positions, /no vertex 99999 for index 5: there are only 36/);
   refused(indices.subarray(1), positions, /multiple of three/);
+  for (const stride of [0, 2, 3.5, NaN, undefined]) {
+    const { simplify, getScale } = meshbound.MeshboundSimplifier;
+    for (const flags of [[], ['ErrorAbsolute']])
+      assert.throws(() => simplify(indices, positions, stride, 0, 0.01, flags), /stride must be/);
+    assert.throws(() => getScale(positions, stride), /stride must be/);
+  }
   refused(indices, Float64Array.from(positions, (x) => x + 0.1), /Float32Array/);
 });
