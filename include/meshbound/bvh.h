@@ -43,7 +43,7 @@ class Bvh {
 
   /// How much larger the boxes have become since the tree was built, in proportion to the whole model: 1 after
   /// building, about 1 after rigid motions and smooth deformations. Queries slow down with it; once it is beyond 2 or
-  /// so, building anew pays. O(n / 4).
+  /// so, building anew pays. O(n).
   [[nodiscard]] double growth() const;
 
   [[nodiscard]] std::size_t triangle_count() const;  ///< of the mesh, degenerate and duplicate ones included

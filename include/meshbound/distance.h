@@ -78,7 +78,7 @@ struct DistanceStats {
   std::uint64_t matched = 0;                ///< dropped because the other model has the identical triangle
   std::uint64_t proven_before = 0;          ///< dropped by what `LevelChecker` or `MovingPair` had proven before
   std::uint64_t culled_by_node = 0;         ///< dropped with a whole tree node (paper, Alg. 1)
-  std::uint64_t culled_by_vertices = 0;     ///< dropped by the closest triangles of their vertices (paper, 4.4)
+  std::uint64_t culled_by_vertices = 0;     ///< dropped by the closest triangles of their vertices (paper, Eq. 5)
   std::uint64_t walked = 0;                 ///< needed the walk over the cells of the other model
   std::uint64_t closest_point_queries = 0;  ///< traversals of the other model's tree
   std::uint64_t nodes_visited = 0;          ///< tree nodes opened by those queries

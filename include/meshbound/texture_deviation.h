@@ -59,7 +59,7 @@ struct TextureDeviationOptions {
   /// as the error bound and `max_pieces` allow; triangles not shown to be within are listed. One that is shown to be
   /// beyond is bounded no closer.
   std::optional<double> tolerance;
-  std::uint64_t max_pieces = 100'000;  ///< most pieces into which a triangle is cut
+  std::uint64_t max_pieces = 100'000;  ///< largest number of pieces that a triangle is cut into
   int threads = 0;                     ///< 0: as many as OpenMP has. Results are the same for every value.
   StopToken stop = {};                 ///< the measurement ends with `Stopped` soon after this says so
 };

@@ -17,7 +17,7 @@
 
 namespace meshbound {
 
-inline constexpr std::uint32_t block_width = 4;  ///< triangles of a leaf (the paper's bound, section 4.3)
+inline constexpr std::uint32_t block_width = 4;  ///< triangles of a leaf (the paper's bound, section 4.2.1)
 inline constexpr std::uint32_t node_width = 8;   ///< children of a node
 inline constexpr std::uint32_t no_slot = 0x7fffffff;
 

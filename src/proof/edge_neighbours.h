@@ -11,7 +11,7 @@
 
 namespace meshbound {
 
-/// Of one triangle: the triangles across its edges, [k] across the edge from corner k to corner k + 1.
+/// The triangles across the edges of one triangle, [k] across the edge from corner k to corner k + 1.
 using TriangleNeighbours = std::array<std::uint32_t, 3>;
 
 /// Whether two different triangles lie across edges of one that have no third triangle: a triangle with the same three

@@ -111,7 +111,7 @@ bool is_border_or_crease(const std::vector<Vec3>& vertices, const std::vector<Tr
 }  // namespace
 
 Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const ArrayMesh& mesh,
-                 const std::vector<std::uint32_t>& triangle_of_face, const std::vector<std::uint32_t>& vertex_of_vertex,
+                 const std::vector<std::uint32_t>& triangle_of_face, const std::vector<std::uint32_t>& source_vertices,
                  double spacing, int threads)
     : Samples(vertices, triangles, mesh.face_count()) {
   const EdgesToSample sampled = edges_to_sample(mesh, spacing, threads);
@@ -130,7 +130,7 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
   for (Corner c = 0; c < edges.size(); ++c) {
     if (!edges[c].is_sharp) continue;
     for (const std::uint32_t v : {mesh.start(c), mesh.end(c)})
-      samples_[vertex_of_vertex[v]].triangle_and_mark |= at_edge;
+      samples_[source_vertices[v]].triangle_and_mark |= at_edge;
   }
   const auto add_points = [&](Corner c, std::size_t first) {
     const std::uint32_t t = triangle_of_face[c / 3], mark = edges[c].is_sharp ? at_edge : 0;
@@ -245,7 +245,7 @@ OriginalOfDecimation original_of_decimation(const std::vector<Vec3>& vertices, c
 }
 
 DecimationState::DecimationState(OriginalOfDecimation original, ArrayMesh start,
-                                 std::vector<std::uint32_t> vertex_of_vertex,
+                                 std::vector<std::uint32_t> source_vertices,
                                  std::vector<std::uint32_t> triangle_of_face, std::vector<std::uint32_t> near,
                                  CoverAssignment cover_of, int threads)
     : vertices(original.vertices),
@@ -255,7 +255,7 @@ DecimationState::DecimationState(OriginalOfDecimation original, ArrayMesh start,
       clustered(std::move(original.clustered)),
       mesh(std::move(start)),
       faces(mesh.face_count()),
-      source_vertex(std::move(vertex_of_vertex)),
+      source_vertex(std::move(source_vertices)),
       source_triangle(std::move(triangle_of_face)),
       locked(mesh.vertex_count(), 0),
       is_fixed(mesh.face_count(), 0),
@@ -271,9 +271,9 @@ DecimationState::DecimationState(OriginalOfDecimation original, ArrayMesh start,
 }
 
 DecimationState::DecimationState(OriginalOfDecimation original, ArrayMesh start,
-                                 std::vector<std::uint32_t> vertex_of_vertex,
+                                 std::vector<std::uint32_t> source_vertices,
                                  std::vector<std::uint32_t> triangle_of_face, int threads)
-    : DecimationState(std::move(original), std::move(start), std::move(vertex_of_vertex), triangle_of_face,
+    : DecimationState(std::move(original), std::move(start), std::move(source_vertices), triangle_of_face,
                       triangle_of_face, CoverAssignment(original.triangles.size()), threads) {
   starts_as_original = true;
   cover.reserve_faces(faces);

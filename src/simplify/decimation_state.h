@@ -42,7 +42,7 @@ class Samples {
   /// Takes the vertices of the original, and points at most `spacing` apart on longer edges. The original must outlive
   /// this.
   Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const ArrayMesh& mesh,
-          const std::vector<std::uint32_t>& triangle_of_face, const std::vector<std::uint32_t>& vertex_of_vertex,
+          const std::vector<std::uint32_t>& triangle_of_face, const std::vector<std::uint32_t>& source_vertices,
           double spacing, int threads);
   /// Takes samples for a mesh that is no longer the original, to be simplified with this tolerance: each sample gets
   /// the nearest of the faces that cover its triangle. Originals without a cover have no samples. The original must
@@ -222,14 +222,14 @@ inline constexpr std::size_t max_faces_of_star = 48;
 /// `mesh` is proven to be within the tolerance of the original, both ways, except for faces whose vertices have
 /// changed since the last proof, and `logs` can undo the changes. All coordinates are those of the working frame.
 struct DecimationState {
-  /// A mesh that is the original, triangle by triangle: `triangle_of_face` says which, and `vertex_of_vertex` which
+  /// A mesh that is the original, triangle by triangle: `triangle_of_face` says which, and `source_vertices` which
   /// vertex of the original is at the same place. Samples are still to be set.
-  DecimationState(OriginalOfDecimation original, ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
+  DecimationState(OriginalOfDecimation original, ArrayMesh start, std::vector<std::uint32_t> source_vertices,
                   std::vector<std::uint32_t> triangle_of_face, int threads = 1);
   /// A mesh that is proven already, with the originals that cover its faces: `cover_of(t)` are faces that original t is
-  /// proven to be near, `near` has an original near each face. `vertex_of_vertex` and `triangle_of_face` are numbers of
+  /// proven to be near, `near` has an original near each face. `source_vertices` and `triangle_of_face` are numbers of
   /// what the caller started from. Samples are still to be set.
-  DecimationState(OriginalOfDecimation original, ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
+  DecimationState(OriginalOfDecimation original, ArrayMesh start, std::vector<std::uint32_t> source_vertices,
                   std::vector<std::uint32_t> triangle_of_face, std::vector<std::uint32_t> near,
                   CoverAssignment cover_of, int threads = 1);
   /// Gives each vertex the planes of the faces that are around it now.

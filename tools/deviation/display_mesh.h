@@ -15,7 +15,7 @@ namespace meshbound::tools {
 /// A mesh of bounded size to look at in place of another one, with deviations at its vertices.
 struct DisplayMesh {
   TriangleMesh mesh;  ///< model units
-  /// Of its vertices: how far each is from the surface that it shows at most, as points inside of triangles are
+  /// By vertex of `mesh`: how far it is at most from the surface that it shows, as points inside of triangles are
   /// rounded; model units.
   std::vector<double> errors;
   std::vector<Bounds> deviations;  ///< of the surface where its vertices show it, model units

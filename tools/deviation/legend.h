@@ -7,7 +7,7 @@
 
 namespace meshbound::tools {
 
-/// Of texts in a picture before it is halved.
+/// Colour and size of texts in a picture, before it is halved.
 inline constexpr Colour ink = {40, 44, 52};
 inline constexpr int text_size = 3;
 

@@ -37,8 +37,8 @@ struct VertexDistances {
   std::vector<std::uint32_t> asked;  ///< unless all were
 };
 
-/// Asks for the closest triangles of the corners of what is left, and bounds the triangles by them (paper, 4.4).
-/// Returns those that no closest triangle of a corner bounds.
+/// Asks for the closest triangles of the corners of what is left, and bounds the triangles by them (paper, Lemma 2, Eq.
+/// 5). Returns those that no closest triangle of a corner bounds.
 [[nodiscard]] VertexDistances query_vertices(OneSidedSearch& search, const Remaining& remaining);
 [[nodiscard]] std::vector<OpenTriangle> bound_triangles(OneSidedSearch& search, const Remaining& remaining,
                                                         const VertexDistances& vertices);

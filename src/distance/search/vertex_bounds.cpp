@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Triangles bounded by a closest triangle of one of their vertices. Paper, 4.4.
+/// Triangles bounded by a closest triangle of one of their vertices. Paper, Lemma 2, Eq. 5.
 #include <limits>
 
 #include "distance/search/steps.h"
