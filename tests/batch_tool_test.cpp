@@ -19,6 +19,7 @@
 
 #include "batch/child.h"
 #include "datasets/analytic_meshes.h"
+#include "json_claims.h"
 #include "meshbound/distance.h"
 #include "meshbound/io.h"
 #include "tool_refusal.h"
@@ -77,7 +78,7 @@ class BatchTool : public testing::Test {
     std::map<std::string, json> found;
     std::ifstream file(in("out/" + report));
     for (std::string line; std::getline(file, line);) {
-      const json record = json::parse(line);
+      const json record = testing_tools::checked_document(line);
       EXPECT_EQ(record["schema"], "meshbound/batch/1");
       EXPECT_TRUE(found.emplace(record["input"], record).second) << line;
     }

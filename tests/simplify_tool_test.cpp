@@ -473,7 +473,7 @@ TEST_F(SimplifyTool, CatchesAFaultyProofAndSavesAReproducer) {
   EXPECT_FALSE(fs::exists(in("out.ply")));
   const fs::path folder = in("out.ply.reproducer");
   EXPECT_EQ(content_of(folder / "original.off"), content_of(in("sphere.off")));
-  const Json options = Json::parse(content_of(folder / "options.json"));
+  const Json options = checked_document(content_of(folder / "options.json"));
   EXPECT_EQ(options.at("tolerances"), Json({0.02}));
   EXPECT_EQ(options.at("effort"), "normal");
   EXPECT_EQ(options.at("driver"), "core");

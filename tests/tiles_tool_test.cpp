@@ -10,11 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "json_claims.h"
 #include "meshbound/io.h"
 #include "run_tool.h"
 
 namespace tiles_tool_test {
 
+using meshbound::testing_tools::checked_document;
 using meshbound::testing_tools::command_line;
 using meshbound::testing_tools::content_of;
 using meshbound::testing_tools::run_shell;
@@ -233,9 +235,13 @@ TEST_F(TileScratch, ResultIsCertifiedByItsMeasurementToo) {
 
 TEST_F(TileScratch, ResumesARunThatWasKilledWithTheSameResult) {
   kill_run(in("killed"));
-  const ToolRun run = simplify("resumed.ply", {"--scratch", in("killed"), "--resume"});
+  const ToolRun run = simplify("resumed.ply", {"--scratch", in("killed"), "--resume", "--json", in("resumed.json")});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_GE(reused(run), 1u) << run.out;
+  const Json document = checked_document(content_of(in("resumed.json")));
+  EXPECT_EQ(document["resumed_tiles"], reused(run));
+  EXPECT_EQ(document["memory"]["limit_bytes"], std::uint64_t{4} << 30);
+  EXPECT_GT(document["memory"]["peak_bytes"], 1'000'000);
   EXPECT_EQ(content_of(in("resumed.ply")), content_of(in("whole.ply")));
   EXPECT_TRUE(std::filesystem::is_empty(in("killed")));
 }

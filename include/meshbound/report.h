@@ -155,6 +155,12 @@ struct CertificateReport {
   std::size_t bytes = 0;  ///< its size
 };
 
+/// How much memory a run in tiles took.
+struct MemoryReport {
+  std::uint64_t peak_bytes = 0;   ///< the largest number that the process has held at once
+  std::uint64_t limit_bytes = 0;  ///< of `--memory`
+};
+
 /// What `simplify_with_bound` says: schema "meshbound/simplify/1".
 struct SimplifyReport {
   std::optional<Provenance> provenance;           ///< of the document
@@ -171,20 +177,27 @@ struct SimplifyReport {
   std::string stopped_by;  ///< which bound came first: "tolerance", "target", "rounding", "time_limit", "cancelled"
   /// What `SimplifyOptions::prune` dropped.
   struct Pruned {
-    std::size_t components = 0;                 ///< whole ones
-    std::size_t faces = 0;                      ///< faces of these components when they were dropped
-  } pruned;                                     ///< by this run
-  std::string effort;                           ///< "normal" or "high"
+    std::size_t components = 0;  ///< whole ones
+    std::size_t faces = 0;       ///< faces of these components when they were dropped
+  } pruned;                      ///< by this run
+  /// What became of an input that is not an oriented 2-manifold, see `SimplifyResult`.
+  struct Repair {
+    bool split = false;                         ///< it was cut into one
+    std::size_t dropped_triangles = 0;          ///< duplicate or degenerate ones
+    std::size_t kept_triangles = 0;             ///< degenerate ones that stay as they are
+  } input;                                      ///< of the original
+  std::string effort;                           ///< that had an effect: "normal" or "high"
   std::string driver;                           ///< "cgal" or "core"
   std::vector<LevelReport> levels;              ///< of smaller tolerances, ascending
   std::vector<CertificateReport> certificates;  ///< when they were asked for: of the levels, then of the result
-  /// Collapses by their outcome.
+  /// Collapses by their outcome; with `effort` "high" vertices that were moved and edges that were flipped count as
+  /// well.
   struct Collapses {
-    std::uint64_t performed = 0;        ///< in the result
-    std::uint64_t refused = 0;          ///< by samples or by a proof
-    std::uint64_t proven_together = 0;  ///< of those performed; the key is "estimated"
+    std::uint64_t performed = 0;        ///< proven, and not undone for the texture or the normals
+    std::uint64_t refused = 0;          ///< edges tried that samples refused
+    std::uint64_t proven_together = 0;  ///< also those that were undone afterwards; the key is "estimated"
     std::uint64_t taken_back = 0;       ///< of those that samples admitted, since the proof of all failed there
-    std::uint64_t proven_alone = 0;     ///< of those performed
+    std::uint64_t proven_alone = 0;     ///< also those that were undone afterwards
   } collapses;                          ///< of the whole run
   /// Wall-clock time of the phases.
   struct Seconds {
@@ -196,6 +209,8 @@ struct SimplifyReport {
     double total = 0;                                     ///< from the start of the tool
   } seconds;                                              ///< of the run
   std::size_t locked_vertices = 0;                        ///< that options kept from moving
+  std::optional<std::size_t> resumed_tiles = {};          ///< that an earlier run had finished, where it was resumed
+  std::optional<MemoryReport> memory = {};                ///< where there was a limit
   int threads = 1;                                        ///< that were used
   std::optional<CommunicationReport> communication = {};  ///< of a run over several processes
 };

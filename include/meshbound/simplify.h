@@ -42,7 +42,9 @@ enum class OnExceed {
 /// How much time to spend on a mesh with fewer faces. Both values keep the same bound.
 enum class Effort {
   Normal,  ///< collapses until nothing fits
-  High     ///< then vertices are moved and edges flipped to make room for further collapses, again and again
+  /// Then vertices are moved and edges flipped to make room for further collapses, again and again. As `Normal` with
+  /// `OnExceed::Stop`, texture coordinates or a normal tolerance.
+  High
 };
 
 /// Where a collapse may put its vertex.
@@ -154,7 +156,7 @@ struct SimplifiedLevel {
   std::optional<HausdorffDistance> line_distance;  ///< between the lines of the original (a) and `lines` (b)
   Verdict verdict = Verdict::Undecided;            ///< on `distance` and, if there are lines, `line_distance`
   std::optional<Certificate> certificate;          ///< of the original and `mesh`, when it was asked for
-  std::uint64_t collapses_performed = 0;           ///< since the beginning of the run
+  std::uint64_t collapses_performed = 0;           ///< and other changes, since the beginning of the run
   std::uint64_t collapses_refused = 0;             ///< since the beginning of the run
 
   /// Number of triangles.

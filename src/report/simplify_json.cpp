@@ -27,6 +27,12 @@ std::string to_json(const SimplifyReport& from) {
   json["driver"] = from.driver;
   json["pruned"] = {{"components", from.pruned.components}, {"faces", from.pruned.faces}};
   json["locked_vertices"] = from.locked_vertices;
+  json["input"] = {{"split", from.input.split},
+                   {"dropped_triangles", from.input.dropped_triangles},
+                   {"kept_triangles", from.input.kept_triangles}};
+  if (from.resumed_tiles) json["resumed_tiles"] = *from.resumed_tiles;
+  if (from.memory)
+    json["memory"] = {{"peak_bytes", from.memory->peak_bytes}, {"limit_bytes", from.memory->limit_bytes}};
   json["levels"] = Json::array();
   for (const LevelReport& level : from.levels) {
     Json& entry = json["levels"].emplace_back();

@@ -40,6 +40,11 @@ std::string share_of_diagonal(const Bounds& bounds, double diagonal) {
   return percent(bounds.lower, diagonal) + upper + " of the diagonal";
 }
 
+void print_interval(const std::string& label, const std::string& text, const Bounds& bounds, double diagonal) {
+  print_line(label, text + interval(bounds));
+  if (diagonal > 0 && std::isfinite(bounds.lower / diagonal * 100)) print_line("", share_of_diagonal(bounds, diagonal));
+}
+
 void print_mesh(const char* name, const MeshReport& mesh) {
   const MeshSummary& s = mesh.summary;
   print_line(name, mesh.path + ": " + std::to_string(s.faces) + " triangles, " + std::to_string(s.vertices) +
@@ -94,10 +99,7 @@ std::string thread_count(int threads) {
 
 void print_distance(const Bounds& bounds, const OneSidedDistance& a_to_b, const OneSidedDistance* b_to_a,
                     const DirectionNames& names, double diagonal) {
-  print_line("distance", interval(bounds));
-  if (diagonal > 0 && std::isfinite(bounds.lower / diagonal * 100)) {
-    print_line("", share_of_diagonal(bounds, diagonal));
-  }
+  print_interval("distance", "", bounds, diagonal);
   print_direction(names.a_to_b, a_to_b);
   if (b_to_a != nullptr) print_direction(names.b_to_a, *b_to_a);
 }

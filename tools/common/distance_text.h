@@ -23,6 +23,9 @@ void print_line(const std::string& label, const std::string& text);
 /// "0.13% to 0.14% of the diagonal", or "0.13% or more of the diagonal" where there is no upper bound.
 [[nodiscard]] std::string share_of_diagonal(const Bounds& bounds, double diagonal);
 
+/// Prints an interval of lengths behind `text`, and below it the same in percent of the diagonal.
+void print_interval(const std::string& label, const std::string& text, const Bounds& bounds, double diagonal);
+
 /// Prints what was read: file, size, diagonal, and what the reader did. `name` is "A" or "B".
 void print_mesh(const char* name, const MeshReport& mesh);
 

@@ -4,24 +4,29 @@
 #include <unistd.h>
 
 #include <system_error>
-#include <utility>
 
 #include "meshbound/error.h"
 
 namespace meshbound::tools {
 
-OutputFolder::OutputFolder(std::filesystem::path path) : path_(std::move(path)) {
+OutputFolder::OutputFolder(const std::filesystem::path& path) {
   std::error_code error;
-  if (std::filesystem::exists(path_, error) && !std::filesystem::is_directory(path_, error))
-    throw IoError(path_.string() + " is a file; name a folder");
-  if (!std::filesystem::exists(path_, error)) made_.emplace(path_);
-  std::filesystem::create_directories(path_, error);
-  if (!std::filesystem::is_directory(path_, error))
-    throw IoError("cannot make the folder " + path_.string() + "; name one that can be written to");
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_directory(path, error))
+    throw IoError(path.string() + " is a file; name a folder");
+  for (std::filesystem::path folder = path; !folder.empty() && !std::filesystem::exists(folder, error);
+       folder = folder.parent_path())
+    made_.push_back(folder);
+  for (const std::filesystem::path& folder : made_) listed_.emplace_front(folder);
+  std::filesystem::create_directories(path, error);
+  if (std::filesystem::is_directory(path, error)) return;
+  remove_made();
+  throw IoError("cannot make the folder " + path.string() + "; name one that can be written to");
 }
 
-OutputFolder::~OutputFolder() {
-  if (made_) ::rmdir(path_.c_str());  // fails when something is in it
+OutputFolder::~OutputFolder() { remove_made(); }
+
+void OutputFolder::remove_made() const {
+  for (const std::filesystem::path& folder : made_) ::rmdir(folder.c_str());  // fails when something is in it
 }
 
 }  // namespace meshbound::tools

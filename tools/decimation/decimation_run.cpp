@@ -62,6 +62,13 @@ std::vector<Refuted> refuted_by(const GatedOutput& output) {
   return refuted;
 }
 
+/// Throws for an output that rounds the original so that its texture or its normals exceed their tolerances.
+[[noreturn]] void refuse_rounding(const GatedOutput& output) {
+  throw Error(output.path().string() +
+              ": rounding coordinates to this format alone moves the texture or turns faces by more than their "
+              "tolerance; use PLY or OBJ, or a larger tolerance; nothing was written");
+}
+
 bool carries_texture_coordinates(FileFormat format) { return format != FileFormat::Stl && format != FileFormat::Off; }
 
 /// What --strict says of attributes that would not come along, and what to do.
@@ -271,9 +278,7 @@ DecidedBy DecimationRun::make_output(GatedOutput& output, double tolerance, cons
       if (takes_back(output)) continue;
       const DecidedBy of_other = fall_back(output, steps.smaller, measurement(tolerance));
       if (output.keeps_appearance()) return of_other;
-      throw Error(output.path().string() +
-                  ": rounding coordinates to this format alone moves the texture or turns faces by more than their "
-                  "tolerance; use PLY or OBJ, or a larger tolerance; nothing was written");
+      refuse_rounding(output);
     }
     if (how == DecidedBy::Measurement && level.ended_by == EndedBy::Target) {
       narrow(output, tolerance);
@@ -308,13 +313,18 @@ std::string DecimationRun::without_floats() const {
          ", or move the mesh to the origin";
 }
 
-std::string DecimationRun::rounding_reason(const GatedOutput& output, double tolerance) const {
+/// The largest absolute value of a coordinate of the original.
+double DecimationRun::largest_coordinate() const {
   Eigen::AlignedBox3d box;
   if (stored_original_)
     stored_original_->for_each_vertex([&](std::uint32_t, const Eigen::Vector3d& p) { box.extend(p); });
   else
     box = used_bounding_box(original_);
-  const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+}
+
+std::string DecimationRun::rounding_reason(const GatedOutput& output, double tolerance) const {
+  const double largest = largest_coordinate();
   constexpr double sufficient = 16;  // with doubles a run collapses edges from 10 times the rounding of its frame on
   const bool floats_are_to_blame = rounds_to_floats(output) && tolerance > sufficient * rounding_of_frame * largest;
   return "the tolerance is below the rounding of the coordinates" +
@@ -343,6 +353,21 @@ std::string DecimationRun::obstacle_of(const GatedOutput& output, double toleran
                     enough = "; raise it to " + short_number(more * moved);
   return has_floats ? which + is_small + enough + ", or " + advice
                     : which + " is smaller than the rounding of the coordinates" + enough;
+}
+
+double DecimationRun::max_rounding(const GatedOutput& output) const {
+  // Half a step of the floats on three axes: less than a step.
+  constexpr double step_of_floats = 0x1p-23, smallest_float = 0x1p-149;
+  return rounding_ + (rounds_to_floats(output) ? step_of_floats * largest_coordinate() + smallest_float : 0);
+}
+
+std::string DecimationRun::obstacle_of_original(GatedOutput& output, double tolerance) {
+  set_requirements(output, tolerance);
+  (void)fall_back(output, nullptr, measurement(tolerance));
+  end_if_interrupted();
+  if (output.verdict() != Verdict::Within) return obstacle_of(output, tolerance, true);
+  if (!output.keeps_appearance()) refuse_rounding(output);
+  return "";
 }
 
 /// Whether a level moves the texture too far or turns faces too much. What is seen before it is written need not be
@@ -494,7 +519,7 @@ void print_lines(const std::optional<LineReport>& lines, double diagonal) {
   if (!lines) return;
   print_line("lines", std::to_string(lines->original_edges) + " -> " + std::to_string(lines->edges) +
                           " edges, tolerance " + both_units(lines->tolerance, diagonal));
-  print_line("", "distance " + interval(lines->distance.bounds));
+  print_interval("", "distance ", lines->distance.bounds, diagonal);
 }
 
 void print_seconds(const SimplifyReport::Seconds& seconds, int threads) {

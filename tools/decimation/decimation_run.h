@@ -56,6 +56,11 @@ class DecimationRun {
   [[nodiscard]] bool is_out_of_time() const { return interrupted_ || remaining(1) == 0; }
   /// Seconds of this share of the time limit that are left.
   [[nodiscard]] double remaining(double share) const;
+  /// No vertex of the original is moved further by writing it to files like `output`, model units; 0: none is moved.
+  [[nodiscard]] double max_rounding(const GatedOutput& output) const;
+  /// Writes the original under a temporary name and measures it. Says why it is not within the tolerances of `output`;
+  /// empty: it is. Throws `Error` where rounding moves the texture or turns faces too far.
+  [[nodiscard]] std::string obstacle_of_original(GatedOutput& output, double tolerance);
   /// Notes the lines that outputs must keep: edges of the original.
   void set_lines(std::vector<Edge> lines);
   /// Says why nothing collapsed where rounding alone may exceed the tolerance, and what to do where that is due to the
@@ -118,6 +123,7 @@ class DecimationRun {
   void set_requirements(GatedOutput& output, double tolerance);
   [[nodiscard]] double narrow_enough(double tolerance) const;
   [[nodiscard]] bool rounds_to_floats(const GatedOutput& output) const;
+  [[nodiscard]] double largest_coordinate() const;
   [[nodiscard]] std::string without_floats() const;
   void narrow(GatedOutput& output, double tolerance);
   [[nodiscard]] std::string obstacle_of(const GatedOutput& output, double tolerance, bool is_original) const;

@@ -19,6 +19,14 @@ std::string is_effort(const std::string& effort) {
   return effort == "fast" ? "there is no fast any more: use normal, which is faster than it was" : "";
 }
 
+/// Throws `InvalidInput` for an effort that would have no effect.
+void check_effort(const SimplifyArguments& arguments) {
+  if (arguments.effort == "high" && arguments.on_exceed == "stop")
+    throw InvalidInput(
+        "--effort high goes on where nothing collapses any more, and --on-exceed stop ends there; leave "
+        "out one of them");
+}
+
 /// Throws `InvalidInput` for the format of a stream that no mesh is on.
 void check_formats(const SimplifyArguments& arguments) {
   const bool reads = arguments.input == "-", writes = arguments.output == "-";
@@ -32,14 +40,14 @@ void check_formats(const SimplifyArguments& arguments) {
 
 /// What needs the mesh in one piece, so that it does not go with --memory.
 constexpr std::array options_of_whole_meshes =
-    std::to_array<const char*>({"--levels", "--target-faces", "--target-ratio", "--prune", "--batch",
+    std::to_array<const char*>({"--levels", "--target-faces", "--target-ratio", "--on-exceed", "--prune", "--batch",
                                 "--texture-tolerance", "--normal-tolerance", "--feature-angle", "--feature-edges",
                                 "--line-tolerance", "--heatmap", "--heatmap-original", "--image", "--report"});
 
 /// What speaks of one of these, or of an attribute.
 constexpr std::array options_without_use_for_tiles =
-    std::to_array<const char*>({"--on-exceed", "--output-dir", "--texture-size", "--drop-attributes", "--dry-run",
-                                "--units", "--up", "--batch-merge", "--jobs", "--shard", "--memory-limit"});
+    std::to_array<const char*>({"--output-dir", "--texture-size", "--drop-attributes", "--dry-run", "--units", "--up",
+                                "--batch-merge", "--jobs", "--shard", "--memory-limit"});
 
 /// `is_in_tiles`: with and without --memory.
 void add_options(CLI::App& app, SimplifyArguments& arguments, bool is_in_tiles) {
@@ -68,18 +76,22 @@ void add_options(CLI::App& app, SimplifyArguments& arguments, bool is_in_tiles) 
   app.add_option("--output-dir", arguments.output_dir,
                  "Folder for the levels (default: that of OUT), or for the results of --batch");
   app.add_option("--certificate", arguments.certificate,
-                 "Write the proof that OUT is within the tolerance, and the texture within its own, for "
-                 "verify_certificate; of levels beside it, as "
-                 "FILE_level_0 and so on")
+                 is_in_tiles ? "Write the proof that OUT is within the tolerance, for verify_certificate"
+                             : "Write the proof that OUT is within the tolerance, and the texture within its own, for "
+                               "verify_certificate; of levels beside it, as FILE_level_0 and so on")
       ->check(no_mesh_name);
-  app.add_option("--effort", arguments.effort,
-                 "How long to look for fewer faces at the same bound: high also moves vertices and flips edges")
+  app.add_option(
+         "--effort", arguments.effort,
+         std::string("How long to look for fewer faces at the same bound: high also moves vertices and flips edges") +
+             (is_in_tiles ? "" : "; with a tolerance of the texture or normals it is normal"))
       ->check(is_effort)
       ->check(CLI::IsMember({"normal", "high"}))
       ->capture_default_str();
   app.add_flag("--prune", arguments.prune, "Drop whole components that lie within the tolerance of what remains");
-  app.add_flag("--dry-run", arguments.dry_run,
-               "Read and check everything, say what a run would take in memory and time, and write nothing");
+  app.add_flag(
+      "--dry-run", arguments.dry_run,
+      "Read and check IN, options and outputs as a run does before its work, say what that would take in memory and "
+      "time, and write nothing");
   add_batch_options(app, arguments.batch);
   add_appearance_options(app, arguments);
   auto* const memory = app.add_option(
@@ -139,6 +151,7 @@ void refuse_folder(const std::string& input) {
 }
 
 void check_lengths(const SimplifyArguments& arguments) {
+  check_effort(arguments);
   if (arguments.tolerance.empty()) throw InvalidInput(missing_tolerance);
   (void)parse_length("--tolerance", arguments.tolerance);
   if (!arguments.line_tolerance.empty()) (void)parse_length("--line-tolerance", arguments.line_tolerance);
@@ -150,6 +163,7 @@ void check_lengths(const SimplifyArguments& arguments) {
 
 void resolve_streams(SimplifyArguments& arguments) {
   check_formats(arguments);
+  check_effort(arguments);
   const bool writes = arguments.output == "-";
   if (writes && arguments.common.json == "-") throw InvalidInput("OUT and --json cannot both be standard output");
   if (arguments.dry_run && !arguments.common.json.empty())

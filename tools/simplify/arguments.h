@@ -34,13 +34,15 @@ inline constexpr const char* missing_tolerance =
     "--tolerance is missing: say how far the result may be from IN, such as --tolerance 0.1%, or --tolerance 100% "
     "where only the number of faces counts";
 
-/// Puts what "-" stands for in place of it. Throws `InvalidInput` where it cannot be used, or not without --format.
+/// Puts what "-" stands for in place of it. Throws `InvalidInput` where it cannot be used, or not without --format, and
+/// for options that do not go together.
 void resolve_streams(SimplifyArguments& arguments);
 
 /// Throws `InvalidInput` where IN is a folder.
 void refuse_folder(const std::string& input);
 
-/// Throws `InvalidInput` where the tolerance of OUT is missing, and for lengths and shares that are none.
+/// Throws `InvalidInput` where the tolerance of OUT is missing, for lengths and shares that are none, and for an effort
+/// that would have no effect.
 void check_lengths(const SimplifyArguments& arguments);
 
 /// Adds all options of simplify_with_bound; `arguments` must outlive the parsing.

@@ -48,6 +48,9 @@ class Run : DecimationRun {
   [[nodiscard]] SimplifiedLevel decimated(const SimplifyOptions& options) const;
   void choose_tolerances();
   void open_outputs();
+  void choose_options(ProgressBar& bar);
+  void make_scene();
+  [[nodiscard]] int foresee();
   void make_levels();
   void make_level(std::size_t level);
   [[noreturn]] void report_wrong_proof(const GatedOutput& output, double tolerance) const;
@@ -63,6 +66,7 @@ class Run : DecimationRun {
   void describe();
   void publish();
   void tell();
+  void tell_obstacle() const;
 
   const SimplifyArguments& options_;
   std::optional<OutputFolder> folder_;  ///< of the levels
@@ -91,11 +95,8 @@ int Run::operator()() {
   read();
   choose_tolerances();
   choose_appearance("an IN and OUT");
-  if (options_.dry_run) {
-    print_estimate(report_.original.summary.faces, report_.tolerance, diagonal_);
-    return ExitDone;
-  }
   open_outputs();
+  if (options_.dry_run) return foresee();
   make_levels();
   if (verdict_ == Verdict::Within) write_certificates();
   if (verdict_ == Verdict::Within && deviation_) measure_deviation();
@@ -164,20 +165,49 @@ void Run::open_outputs() {
   certificates_.emplace_back(options_.certificate, AtomicFile::Stream::Staged, signals);
 }
 
-/// Makes the levels, the finest first, and proves each before the next one.
-void Run::make_levels() {
-  ProgressBar bar("simplifying", options_.common.quiet);
+/// Sets the options of all levels.
+void Run::choose_options(ProgressBar& bar) {
   simplify_ = decimation_options(tolerances_.back(), bar);
   if (bounds_texture()) {
     simplify_.texture_tolerance = texture_tolerance_of(tolerances_.front());
     // Points with the same coordinate are no nearer than the nearest.
     if (tolerances_.size() == 1) simplify_.tolerance = std::min(simplify_.tolerance, simplify_.texture_tolerance);
   }
-  if (options_.workers == nullptr) {
-    check_options(simplify_);
-    scene_.emplace(original_, attributes_, simplify_);
-    set_lines(scene_->lines());
+  if (options_.workers == nullptr) check_options(simplify_);
+}
+
+/// Makes what makes the levels, and finds the lines; not where workers on tiles do.
+void Run::make_scene() {
+  if (options_.workers != nullptr) return;
+  scene_.emplace(original_, attributes_, simplify_);
+  set_lines(scene_->lines());
+}
+
+/// What --dry-run does in place of the work: says what it would take, or that rounding alone exceeds a tolerance.
+int Run::foresee() {
+  {
+    ProgressBar bar("checking", options_.common.quiet);
+    choose_options(bar);
+    const double rounding = max_rounding(outputs_.back());
+    const double limit = std::min(tolerances_.front(), simplify_.line_tolerance.value_or(tolerances_.front()));
+    const bool may_exceed = rounding > limit || (rounding > 0 && bounds_appearance());
+    if (may_exceed) make_scene();
+    for (std::size_t i = 0; may_exceed && i < outputs_.size() && obstacle_.empty(); ++i)
+      obstacle_ = obstacle_of_original(outputs_[i], tolerance_of(i));
   }
+  if (obstacle_.empty()) {
+    print_estimate(report_.original.summary.faces, report_.tolerance, diagonal_);
+    return ExitDone;
+  }
+  tell_obstacle();
+  return ExitExceeds;
+}
+
+/// Makes the levels, the finest first, and proves each before the next one.
+void Run::make_levels() {
+  ProgressBar bar("simplifying", options_.common.quiet);
+  choose_options(bar);
+  make_scene();
   verdict_ = Verdict::Within;
   for (std::size_t i = 0; i < outputs_.size() && verdict_ == Verdict::Within; ++i) {
     const double tolerance = tolerance_of(i);
@@ -196,7 +226,7 @@ void Run::make_levels() {
     verdict_ = outputs_[i].verdict();
     if (verdict_ != Verdict::Within && obstacle_.empty()) report_wrong_proof(outputs_[i], tolerance);
   }
-  report_.effort = options_.effort;
+  report_.effort = bounds_appearance() ? "normal" : options_.effort;  // high changes nothing there
   report_.driver = options_.driver;
   report_.locked_vertices = result_.locked_vertices;
   report_.pruned = {result_.pruned_components, result_.pruned_faces};
@@ -348,6 +378,9 @@ void Run::describe() {
                               outputs_[i].distance(), line_report(outputs_[i], tolerances_[i]),
                               texture_report(outputs_[i]), normal_report(outputs_[i]),
                               checksums_.empty() ? "" : checksums_[i]});
+  report_.input = {result_.split, result_.dropped_triangles, result_.kept_triangles};
+  if (options_.resume) report_.resumed_tiles = options_.workers->reused_tiles();
+  if (!options_.memory.empty()) report_.memory = MemoryReport{peak_memory(), parse_memory("--memory", options_.memory)};
   report_.threads = threads();
   if (options_.workers != nullptr) report_.communication = options_.workers->communication();
   report_.seconds.total = watch_.seconds();
@@ -380,8 +413,11 @@ void Run::tell() {
   if (verdict_ == Verdict::Within && ended_by_time())
     std::fprintf(stderr, "%s: the time limit came first: %s is the best mesh that was proven by then\n",
                  provenance().tool.c_str(), as_typed(options_.output).c_str());
-  if (verdict_ != Verdict::Within)
-    std::fprintf(stderr, "%s: %s; nothing was written\n", provenance().tool.c_str(), obstacle_.c_str());
+  if (verdict_ != Verdict::Within) tell_obstacle();
+}
+
+void Run::tell_obstacle() const {
+  std::fprintf(stderr, "%s: %s; nothing was written\n", provenance().tool.c_str(), obstacle_.c_str());
 }
 
 bool Run::ended_by_time() const {

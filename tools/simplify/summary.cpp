@@ -7,7 +7,6 @@
 #include "common/length.h"
 #include "common/memory.h"
 #include "common/texture_text.h"
-#include "common/tile_workers.h"
 #include "decimation/decimation_run.h"
 #include "deviation/deviation_outputs.h"
 
@@ -57,18 +56,19 @@ void print_summary(const FinishedRun& run) {
   if (run.options.prune)
     print_line("pruned",
                std::to_string(run.result.pruned_components) + " components of " + face_count(run.result.pruned_faces));
-  if (run.result.split)
+  if (report.input.split)
     print_line("input", "not an oriented 2-manifold: simplified as one, with edges and vertices doubled where needed");
-  if (run.result.dropped_triangles + run.result.kept_triangles > 0)
-    print_line("input", std::to_string(run.result.dropped_triangles) + " duplicate or degenerate triangles dropped, " +
-                            std::to_string(run.result.kept_triangles) + " kept as they are");
+  if (report.input.dropped_triangles + report.input.kept_triangles > 0)
+    print_line("input", std::to_string(report.input.dropped_triangles) +
+                            " duplicate or degenerate triangles dropped, " +
+                            std::to_string(report.input.kept_triangles) + " kept as they are");
   print_dropped(report.original);
   print_seconds(report.seconds, report.threads);
-  if (run.options.resume)
-    print_line("resumed", std::to_string(run.options.workers->reused_tiles()) + " finished tiles came from " +
-                              run.options.scratch);
-  if (!run.options.memory.empty())
-    print_line("memory", in_mebibytes(static_cast<double>(peak_memory())) + " at most, of " + run.options.memory);
+  if (report.resumed_tiles)
+    print_line("resumed", std::to_string(*report.resumed_tiles) + " finished tiles came from " + run.options.scratch);
+  if (report.memory)
+    print_line("memory",
+               in_mebibytes(static_cast<double>(report.memory->peak_bytes)) + " at most, of " + run.options.memory);
   for (const GatedOutput& output : run.outputs)
     print_line("wrote", output.path().string() + ", " + face_count(output.summary().faces) + ", " +
                             interval(output.distance().bounds));
