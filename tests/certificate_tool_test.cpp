@@ -281,7 +281,7 @@ TEST_F(CertificateTools, AnyTwoMeshesCanBeCertified) {
   };
   EXPECT_EQ(certify({"--tolerance", "0.05"}).exit_code, 0);
   const std::string proven = verify("torus.off", "coarse.off", "pair.cert").out;
-  EXPECT_NE(proven.find(" are within 0.05 of each other\n"), std::string::npos) << proven;
+  EXPECT_NE(proven.find(" are within 0.05 ("), std::string::npos) << proven;
   EXPECT_EQ(certify({"--tolerance", "0.08"}).exit_code, 0);
   EXPECT_EQ(verify("torus.off", "coarse.off", "pair.cert", {"--tolerance", "0.08"}).exit_code, 0);
   fs::remove(in("pair.cert"));

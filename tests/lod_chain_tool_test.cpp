@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <regex>
 #include <string>
 
 #include "datasets/analytic_meshes.h"
@@ -203,6 +204,22 @@ TEST_F(LodChainTool, KeepsToTheOptionsThatAllToolsHave) {
        {"--levels", "--pixels", "--screen-height", "--fov", "--distances", "--format", "--json", "--quiet", "--threads",
         "--driver", "--cost", "--preserve-boundary", "--time-limit", "Exit codes: 0 "})
     EXPECT_NE(help.find(option), std::string::npos) << option;
+}
+
+/// It makes no pictures, which the option is for elsewhere.
+TEST_F(LodChainTool, SaysWhatTheAxisThatPointsUpIsFor) {
+  const ToolRun refused = run({"--levels", "1%", "--up", "z"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("--up is for the report and the tileset: add --report or --tileset"), std::string::npos)
+      << refused.err;
+  EXPECT_EQ(run({"--levels", "1%", "--up", "z", "--tileset", "--format", "glb"}).exit_code, 0);
+  EXPECT_EQ(testing_tools::run_tool(LOD_CHAIN, {"--help"}).out.find("picture"), std::string::npos);
+}
+
+TEST_F(LodChainTool, SaysDistancesInPercentToo) {
+  const std::string out = run({"--levels", "1%"}).out;
+  EXPECT_TRUE(std::regex_search(out, std::regex("\n +distance \\[.*\\]\n +[0-9.]+% to [0-9.]+% of the diagonal\n")))
+      << out;
 }
 
 TEST_F(LodChainTool, RefusesBadUsageInOneLineAndMakesNoFolder) {

@@ -27,6 +27,18 @@ TEST(TilesOverRanks, HaveNoOptionsOfBatches) {
   EXPECT_NE(run.err.find("OUT is required"), std::string::npos) << run.err;
 }
 
+/// Each option that a help text names, also in passing, is one of the tool.
+TEST(TilesOverRanks, SpeakOfNoOptionThatTheyLack) {
+  for (const char* const tool : {SIMPLIFY_WITH_BOUND_MPI, HAUSDORFF_DISTANCE_MPI}) {
+    const std::string help = run_ranks(1, tool, {"--help"}).out;
+    const std::regex named("--[a-z][a-z-]+[a-z]");
+    for (std::sregex_iterator it(help.begin(), help.end(), named), end; it != end; ++it)
+      EXPECT_NE((help + "\n").find("\n  " + it->str() + " "), std::string::npos) << tool << " lacks " << it->str();
+    for (const char* const other : {"texture", "nearest", "level"})
+      EXPECT_EQ(help.find(other), std::string::npos) << tool << " speaks of " << other;
+  }
+}
+
 TEST(TilesOverRanks, GiveTheSameBitsAsTilesOfOneProcess) {
   for (const int ranks : {1, 2, 3, 4}) {
     const ToolRun run = run_ranks(ranks, TILES_OVER_RANKS, {"simplify"});

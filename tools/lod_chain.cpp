@@ -78,6 +78,9 @@ void declare(CLI::App& app, Options& options) {
                "With --format glb: write DIR/tileset.json, too, for viewers of 3D Tiles; geometricError is the proven "
                "error of each level. Viewers take y as up; --up z where it is the z axis of IN");
   add_report_options(app, options.deviation);
+  app.get_option("--units")->description("Name of the unit of lengths in the report, such as mm");
+  app.get_option("--up")->description(
+      "Axis of IN that points up: in the report (default z), and with --tileset in the tileset (default y)");
   add_appearance_options(app, options);
   add_decimation_options(app, options);
   add_examples(
@@ -229,7 +232,9 @@ void Run::check_paths() const {
   for (std::size_t i = 0; i < options_.levels.size() + of_view; ++i) outputs.push_back({"DIR", level_path(i)});
   require_distinct_files({{"IN", options_.input}, {"--feature-edges", options_.feature_edges}}, outputs);
   DeviationRequest request = options_.deviation;
-  request.has_tileset = options_.tileset;
+  if (request.up && request.report.empty() && !options_.tileset)
+    throw InvalidInput("--up is for the report and the tileset: add --report or --tileset, or leave it out");
+  request.up.reset();
   request.check();
 }
 
@@ -438,7 +443,7 @@ void Run::print_summary() const {
     const LodReport::Level& level = report_.levels[i];
     print_line(level.file, face_count(level.faces) + ", tolerance " + both_units(level.tolerance, diagonal_));
     if (level.stopped_by == to_string(EndedBy::Rounding)) print_line("", rounding_reason(outputs_[i], level.tolerance));
-    print_line("", "distance " + interval(level.distance.bounds));
+    print_interval("", "distance ", level.distance.bounds, diagonal_);
     print_lines(level.lines, diagonal_);
     if (level.normals) print_normals(*level.normals);
     if (level.texture) print_texture(*level.texture, {"original to level", "level to original"}, diagonal_);

@@ -164,18 +164,19 @@ std::string left_out(const verify::Proof::Texture& texture) {
 void print(const Options& options, const Inputs& inputs, const Outcome& outcome) {
   const verify::Proof::Direction &forward = outcome.proof->original_to_simplified,
                                  &backward = outcome.proof->simplified_to_original;
+  const double diagonal = diagonal_of(inputs.original);
   print_line("proven", options.original + " and " + options.simplified + " are within " +
-                           exact_number(outcome.proof->tolerance) + " of each other");
+                           both_units(outcome.proof->tolerance, diagonal) + " of each other");
   print_line("pieces", std::to_string(forward.pieces) + " of the original, " + std::to_string(backward.pieces) +
                            " of the simplified mesh; " + std::to_string(forward.by_parity + backward.by_parity) +
                            " of them proven by parity");
   if (const auto& lines = outcome.proof->lines)
     print_line("lines", std::to_string(lines->original_edges) + " edges of the original and " +
                             std::to_string(lines->simplified_edges) + " of the simplified mesh are within " +
-                            exact_number(lines->tolerance) + " of each other; " +
+                            both_units(lines->tolerance, diagonal) + " of each other; " +
                             (lines->has_all_borders ? "all" : "not all") + " borders are among them");
   if (const auto& texture = outcome.proof->texture)
-    print_line("texture", "moves by at most " + exact_number(texture->tolerance) +
+    print_line("texture", "moves by at most " + both_units(texture->tolerance, diagonal) +
                               "; not covered by the other mesh are " +
                               short_number(100 * texture->original_to_simplified.uncovered_share) +
                               "% of the original's area and " +

@@ -34,7 +34,7 @@ std::vector<NamedPath> DeviationRequest::outputs() const {
 void DeviationRequest::check() const {
   if (!units.empty() && !has_any())
     throw InvalidInput("--units names the unit of deviations, and none is asked for: add --report, or leave it out");
-  if (up && report.empty() && image.empty() && !has_tileset)
+  if (up && report.empty() && image.empty())
     throw InvalidInput("--up is for reports and pictures, and none is asked for: add --report, or leave it out");
   if (!report.empty()) require_report_page("--report");
   for (const NamedPath& output : outputs()) {

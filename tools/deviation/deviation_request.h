@@ -18,7 +18,6 @@ struct DeviationRequest {
   std::string image;             ///< PNG file
   std::string units;             ///< what a length is called, such as "mm"
   std::optional<UpAxis> up;      ///< of reports and pictures; none: z
-  bool has_tileset = false;      ///< which `up` is for as well
 
   [[nodiscard]] bool has_any() const { return !outputs().empty(); }
   /// The files that are asked for, with the names of their options.

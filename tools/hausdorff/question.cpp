@@ -27,12 +27,15 @@ constexpr std::array options_without_use_for_tiles =
 /// `is_in_tiles`: with and without --memory.
 void add_options(CLI::App& app, Arguments& arguments, bool is_in_tiles) {
   app.add_option("A", arguments.a, "The original: OFF, OBJ, PLY, STL, GLB or glTF; - for standard input")->required();
-  app.add_option("B", arguments.b, "The mesh to compare with it; - for standard input; not with --nearest");
-  add_stream_format(app, "--format", arguments.format, "input");
   app.add_option(
-      "--error-bound", arguments.error_bound,
-      "Wanted width of the interval: model units, or '0.1%' of A's bounding-box diagonal (default 0.0001%); with "
-      "--nearest in units of normalised shapes (default: 0.001, or half of an upper bound if that is more)");
+      "B", arguments.b,
+      std::string("The mesh to compare with it; - for standard input") + (is_in_tiles ? "" : "; not with --nearest"));
+  add_stream_format(app, "--format", arguments.format, "input");
+  const std::string of_shapes =
+      "; with --nearest in units of normalised shapes (default: 0.001, or half of an upper bound if that is more)";
+  app.add_option("--error-bound", arguments.error_bound,
+                 "Wanted width of the interval: model units, or '0.1%' of A's bounding-box diagonal (default 0.0001%)" +
+                     (is_in_tiles ? "" : of_shapes));
   app.add_option("--tolerance", arguments.tolerance,
                  "Decide whether the distance is at most this (units as above): exit 0 within, 1 exceeds, 3 undecided. "
                  "Stops as soon as that is known, unless --error-bound or --worst is given too");
@@ -69,9 +72,10 @@ void add_options(CLI::App& app, Arguments& arguments, bool is_in_tiles) {
                  "With --texture: width of the texture, which counts as square, in texels, to print lengths in texels "
                  "of A as well")
       ->check(number_of_texels);
-  app.add_option("--certificate", arguments.certificate,
-                 "With --tolerance: write the proof that the distance is within it, for verify_certificate; with "
-                 "--texture-tolerance also that of the texture")
+  app.add_option(
+         "--certificate", arguments.certificate,
+         std::string("With --tolerance: write the proof that the distance is within it, for verify_certificate") +
+             (is_in_tiles ? "" : "; with --texture-tolerance also that of the texture"))
       ->check(no_mesh_name);
   app.add_option_function<std::string>(
          "--method",
