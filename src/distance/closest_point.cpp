@@ -13,6 +13,7 @@
 #include "distance/shortcuts/point_like.h"
 #include "geometry/eigen_vec3.h"
 #include "geometry/magnitude.h"
+#include "geometry/safe_length.h"
 #include "meshbound/error.h"
 #include "numeric/rounding.h"
 #include "numeric/tasks.h"
@@ -27,8 +28,7 @@ constexpr std::size_t queries_per_task = 1024;
 /// The answer where the mesh is a point beside its distance: see `distance_to_point_like`.
 ClosestPoint closest_of_point_like(const Bvh::Data& data, const Eigen::Vector3d& query) {
   const Eigen::Vector3d point = to_eigen(data.frame.to_model(data.vertices[0]));
-  const Eigen::Vector3d apart = query - point;
-  const double distance = std::hypot(apart.x(), apart.y(), apart.z());
+  const double distance = safe_length(query - point);
   const double reach = std::max(query.cwiseAbs().maxCoeff(), point.cwiseAbs().maxCoeff());
   const double slack = 32 * unit_roundoff * reach + data.diagonal * (1 + 4 * unit_roundoff);
   return {{point, data.triangle_of_slot[0]}, {std::max(0.0, next_down(distance - slack)), next_up(distance + slack)}};

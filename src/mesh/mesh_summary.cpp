@@ -2,12 +2,12 @@
 #include "meshbound/mesh_summary.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
 
+#include "geometry/safe_length.h"
 #include "mesh/mesh_arrays.h"
 #include "mesh/stored_mesh.h"
 #include "numeric/disjoint_sets.h"
@@ -161,8 +161,7 @@ Eigen::AlignedBox3d used_bounding_box(const MeshView& mesh) {
 
 double diagonal_of(const Eigen::AlignedBox3d& box) {
   if (box.isEmpty()) return 0;
-  const Eigen::Vector3d size = box.sizes();
-  return std::hypot(size.x(), size.y(), size.z());
+  return safe_length(box.sizes());
 }
 
 double bounding_box_diagonal(const MeshView& mesh) { return diagonal_of(used_bounding_box(mesh)); }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/affine.h"
+#include "geometry/safe_length.h"
 #include "mesh/mesh_arrays.h"
 #include "meshbound/error.h"
 #include "meshbound/pose.h"
@@ -58,10 +59,9 @@ Rounded image_coordinate(const Eigen::RowVector4d& row, const Eigen::Vector3d& x
   return {result.value, exact ? 0 : std::nextafter(error, infinity)};
 }
 
-/// Length of a vector of non-negative errors, rounded up: hypot of three numbers errs by less than 4 units in the last
-/// place.
+/// Length of a vector of non-negative errors, rounded up.
 double length_rounded_up(const Eigen::Vector3d& v) {
-  const double length = std::hypot(v.x(), v.y(), v.z());
+  const double length = safe_length(v);
   return length == 0 ? 0 : std::nextafter(length * (1 + 16 * unit_roundoff), infinity);
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "geometry/affine.h"
+#include "geometry/safe_length.h"
 #include "meshbound/error.h"
 #include "meshbound/view_levels.h"
 
@@ -19,7 +20,7 @@ constexpr double rounding = 0x1p-40;
 /// up to f d / (z cos a) pixels; f d / z is what it covers on the axis, parallel to the screen.
 double cosine_to_corner(const ViewCamera& camera) {
   const double up = std::tan(camera.screen.vertical_field_of_view / 2), right = up * camera.aspect_ratio;
-  return 1 / std::hypot(1.0, up, right);
+  return 1 / safe_length({1, up, right});
 }
 
 }  // namespace

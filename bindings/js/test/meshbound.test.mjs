@@ -78,6 +78,17 @@ test('two parallel sheets are as far apart as they were placed', () => {
   assert.equal(oneSided.bToA.outcome, 'not_searched');
 });
 
+test('a mesh that is a point beside the other one, of sizes whose squares are no numbers', () => {
+  const corner = (size) => ({ positions: Float64Array.of(0, 0, 0, size, 0, 0, 0, size, 0), indices: Uint32Array.of(0, 1, 2) });
+  for (const exponent of [-600, 600]) {
+    const large = corner(2 ** exponent), small = corner(2 ** (exponent - 50));
+    const distance = meshbound.hausdorffDistance(large, small), length = 2 ** exponent - 2 ** (exponent - 50);
+    assert.ok(distance.lower <= length && length <= distance.upper && distance.upper - distance.lower < 1e-12 * length);
+    assert.equal(meshbound.check(large, small, length / 1024).verdict, 'exceeds');
+    assert.ok(Math.abs(meshbound.describe(large).bboxDiagonal / 2 ** exponent - Math.SQRT2) < 1e-12);
+  }
+});
+
 test('a decision of one side has its own bounds', () => {
   // A small triangle of the second mesh floats above the large one that both have, so that only that mesh is far away.
   const indices = Uint32Array.of(0, 1, 2, 3, 4, 5);

@@ -4,6 +4,7 @@
 
 #include "distance/search/one_sided_search.h"
 #include "distance/shortcuts/identical.h"
+#include "geometry/safe_length.h"
 #include "numeric/rounding.h"
 
 namespace meshbound {
@@ -56,8 +57,7 @@ Witness OneSidedSearch::witness_at(const LowerBound& lower) const {
   Witness witness;
   witness.from = {to_world(task_.b, lower.point), a_.triangle_of_slot[lower.from_slot]};
   witness.nearest = {to_world(task_.b, nearest), b_.triangle_of_slot[lower.nearest_slot]};
-  const Eigen::Vector3d apart = witness.from.position - witness.nearest.position;
-  witness.distance = std::hypot(apart.x(), apart.y(), apart.z());
+  witness.distance = safe_length(witness.from.position - witness.nearest.position);
   return witness;
 }
 

@@ -2,17 +2,15 @@
 #include "distance/shortcuts/point_like.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "bvh/bvh_data.h"
 #include "distance/shortcuts/identical.h"
+#include "geometry/safe_length.h"
 #include "numeric/rounding.h"
 
 namespace meshbound {
 namespace {
-
-double safe_length(const Eigen::Vector3d& v) { return std::hypot(v.x(), v.y(), v.z()); }
 
 /// A point in the world, and the lengths that its rounding goes with: these may cancel in the point.
 struct WorldPoint {
