@@ -380,6 +380,23 @@ TEST(ManifoldSoup, KeepsTheBackOfATriangleWhereLooksCount) {
   EXPECT_EQ(manifold_soup(soup).triangle_of, (std::vector<std::uint32_t>{0}));
 }
 
+/// Of one half of a square the front comes first, of the other half the back; the caller had both fronts first.
+TEST(ManifoldSoup, NumbersSheetsInTheOrderOfTheCaller) {
+  const TriangleMesh soup = mesh_of({{0, 1, 2}, {2, 1, 0}, {3, 2, 0}, {0, 2, 3}});
+  const std::vector<std::uint32_t> look = {0, 1, 1, 0}, number = {0, 2, 3, 1};
+  const ManifoldSoup result =
+      manifold_soup(soup, meshbound::first_at_position(meshbound::positions_of(soup)), {}, look, number);
+  EXPECT_EQ(result.dropped_triangles, 0U);
+  EXPECT_EQ(result.twin[0][2], 9U) << "the fronts have a common edge";
+  EXPECT_EQ(result.twin[1][2], 7U) << "and so have the backs";
+  for (std::uint32_t f = 0; f < 4; ++f)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(result.vertex_of[result.faces[f][k]], soup.triangles[f][k]) << "none is turned over";
+  const std::vector<std::uint32_t> last_first = {1, 0};
+  const TriangleMesh twice = mesh_of({{0, 1, 2}, {1, 2, 0}});
+  EXPECT_EQ(manifold_soup(twice, {0, 1, 2}, {}, {}, last_first).triangle_of, std::vector<std::uint32_t>{1});
+}
+
 TEST(ManifoldSoup, RefusesTooManyTriangles) {
   const double position[3] = {0, 0, 0};
   const std::uint32_t indices[3] = {0, 0, 0};

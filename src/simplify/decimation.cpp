@@ -184,7 +184,7 @@ ManifoldSoup Decimation::soup_of_start(std::span<const TriangleNeighbours> neigh
   std::vector<std::uint32_t> first = std::exchange(first_of_start_, {});
   const MeshView soup = view_of(start_points(), start_triangles());
   if (start_ != nullptr) return manifold_soup(soup, std::move(first), {}, {});
-  return manifold_soup(soup, std::move(first), neighbours, looks_of(options_, order_.triangle));
+  return manifold_soup(soup, std::move(first), neighbours, looks_of(options_, order_.triangle), order_.triangle);
 }
 
 void Decimation::start_as_original(OriginalOfDecimation original, ManifoldSoup soup, ArrayMesh mesh) {

@@ -32,10 +32,16 @@ std::uint32_t at(const std::vector<Triangle>& table, std::uint32_t corner) {
 
 class ManifoldBuilder {
  public:
-  /// `neighbours` may be empty.
+  /// `neighbours`, `look` and `number` may be empty.
   ManifoldBuilder(const MeshView& soup, std::vector<std::uint32_t> first,
-                  std::span<const TriangleNeighbours> neighbours, std::span<const std::uint32_t> look)
-      : soup_(soup), neighbours_(neighbours), look_(look), is_shared_(first.size(), 0), first_(std::move(first)) {
+                  std::span<const TriangleNeighbours> neighbours, std::span<const std::uint32_t> look,
+                  std::span<const std::uint32_t> number)
+      : soup_(soup),
+        neighbours_(neighbours),
+        look_(look),
+        number_(number),
+        is_shared_(first.size(), 0),
+        first_(std::move(first)) {
     for (std::uint32_t v = 0; v < first_.size(); ++v) {
       if (first_[v] == v) continue;
       is_shared_[first_[v]] = 1;
@@ -133,6 +139,7 @@ class ManifoldBuilder {
   MeshView soup_;
   std::span<const TriangleNeighbours> neighbours_;
   std::span<const std::uint32_t> look_;
+  std::span<const std::uint32_t> number_;
   std::vector<std::uint32_t> sheet_;     ///< by triangle of the soup; empty: all are on the first one
   std::vector<std::uint8_t> is_shared_;  ///< by vertex of the soup: another one has it as its first
   bool has_shared_ = false;              ///< any is
@@ -186,8 +193,9 @@ void ManifoldBuilder::take_distinct_triangles() {
   for (std::size_t v = 0; v < by_lowest_vertex.size(); ++v) {
     const std::span<Seen> here = by_lowest_vertex[v];
     const auto corners = [](const Seen& seen) { return std::tuple(seen.middle, seen.highest); };
+    const auto number = [&](const Seen& seen) { return number_.empty() ? seen.triangle : number_[seen.triangle]; };
     std::sort(here.begin(), here.end(), [&](const Seen& a, const Seen& b) {
-      return std::tuple(corners(a), a.triangle) < std::tuple(corners(b), b.triangle);
+      return std::tuple(corners(a), number(a)) < std::tuple(corners(b), number(b));
     });
     for (std::size_t i = 0, end = 0; i < here.size(); i = end) {
       while (end < here.size() && corners(here[end]) == corners(here[i])) ++end;
@@ -437,11 +445,12 @@ ManifoldSoup manifold_soup(const MeshView& soup, std::span<const std::uint32_t> 
 }
 
 ManifoldSoup manifold_soup(const MeshView& soup, std::vector<std::uint32_t> first_at_position,
-                           std::span<const TriangleNeighbours> neighbours, std::span<const std::uint32_t> look) {
+                           std::span<const TriangleNeighbours> neighbours, std::span<const std::uint32_t> look,
+                           std::span<const std::uint32_t> number) {
   if (soup.triangle_count() > max_triangles)
     throw InvalidInput("the mesh has " + std::to_string(soup.triangle_count()) +
                        " triangles; decimation takes 2^32 / 3 of them at most, simplify it in pieces");
-  return ManifoldBuilder(soup, std::move(first_at_position), neighbours, look).build();
+  return ManifoldBuilder(soup, std::move(first_at_position), neighbours, look, number).build();
 }
 
 }  // namespace meshbound

@@ -48,6 +48,11 @@ struct ManifoldSoup {
 /// sheets of their own: triangles of different sheets are not joined, and the first triangle of each set of corners is
 /// on the first sheet.
 ///
+/// `number` is empty or has a different number for each triangle, which says what comes first among triangles with the
+/// same corners: the one with the lowest number stays of repetitions, and sheets are numbered in this order. Without
+/// numbers it is the order of the soup. Where that is another one than the caller's, as along a space-filling curve,
+/// the caller's numbers keep fronts on one sheet and backs on another: a curve may meet either of both first.
+///
 /// `soup` is valid (see `validate`). Without faces where no triangle has three different corners. Throws `InvalidInput`
 /// for more than 2^32 / 3 triangles. Deterministic; O(n log d) expected time for d edges at a vertex, O(n) memory.
 [[nodiscard]] ManifoldSoup manifold_soup(const MeshView& soup, std::span<const std::uint32_t> look = {});
@@ -56,6 +61,7 @@ struct ManifoldSoup {
 /// are known, those that a tree has found (see `edge_neighbours`): edges are sorted only where these are not certain.
 [[nodiscard]] ManifoldSoup manifold_soup(const MeshView& soup, std::vector<std::uint32_t> first_at_position,
                                          std::span<const TriangleNeighbours> neighbours,
-                                         std::span<const std::uint32_t> look);
+                                         std::span<const std::uint32_t> look,
+                                         std::span<const std::uint32_t> number = {});
 
 }  // namespace meshbound
