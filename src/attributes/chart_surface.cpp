@@ -53,10 +53,11 @@ std::size_t WeightedPoint::nearest_corner() const {
   return static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
 }
 
-ChartSurface::CornersAt::CornersAt(const TriangleMesh& mesh, const std::vector<std::uint32_t>& first)
+ChartSurface::CornersAt::CornersAt(const TriangleMesh& mesh, const ChartPartition& charts)
     : positions(positions_of(mesh)), table(positions), corners(mesh.vertices.size(), [&](const auto& add) {
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-          for (std::uint32_t k = 0; k < 3; ++k) add(first[mesh.triangles[t][k]], 3 * t + k);
+          for (std::uint32_t k = 0; k < 3 && !charts.layers.repeats(t); ++k)
+            add(charts.first[mesh.triangles[t][k]], 3 * t + k);
       }) {}
 
 ChartSurface::ChartSurface(const TriangleMesh& mesh, ChartPartition charts)
@@ -64,13 +65,14 @@ ChartSurface::ChartSurface(const TriangleMesh& mesh, ChartPartition charts)
       charts_(std::move(charts)),
       triangles_of_(charts_.count,
                     [this](const auto& add) {
-                      for (std::uint32_t t = 0; t < charts_.chart_of.size(); ++t) add(charts_.chart_of[t], t);
+                      for (std::uint32_t t = 0; t < charts_.chart_of.size(); ++t)
+                        if (!charts_.layers.repeats(t)) add(charts_.chart_of[t], t);
                     }),
       trees_(charts_.count),
       number_in_chart_(mesh.vertices.size()) {}
 
 std::span<const std::uint32_t> ChartSurface::corners_at(const Eigen::Vector3d& p) {
-  if (!corners_at_) corners_at_.emplace(mesh_, charts_.first);
+  if (!corners_at_) corners_at_.emplace(mesh_, charts_);
   const std::uint32_t v = corners_at_->table.find({p.x(), p.y(), p.z()});
   if (v == no_index) return {};
   return corners_at_->corners[v];

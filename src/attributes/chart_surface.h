@@ -29,7 +29,8 @@ struct WeightedPoint {
   [[nodiscard]] std::size_t nearest_corner() const;
 };
 
-/// A mesh with its charts, for closest points on one chart at a time. Not thread-safe: what is asked for is built then.
+/// A mesh with its charts, for closest points on one chart at a time. Triangles that repeat others are left out. Not
+/// thread-safe: what is asked for is built then.
 class ChartSurface {
  public:
   /// `mesh` must outlive this; `charts` are its own.
@@ -46,7 +47,7 @@ class ChartSurface {
  private:
   /// Tells which corners are at a position.
   struct CornersAt {
-    CornersAt(const TriangleMesh& mesh, const std::vector<std::uint32_t>& first);
+    CornersAt(const TriangleMesh& mesh, const ChartPartition& charts);
 
     std::vector<Vec3> positions;
     PositionTable table;

@@ -9,7 +9,6 @@
 
 #include "geometry/eigen_vec3.h"
 #include "mesh/first_use.h"
-#include "numeric/no_index.h"
 
 namespace meshbound {
 namespace {
@@ -76,13 +75,12 @@ std::vector<std::pair<Corners, std::uint32_t>> candidates(const TriangleMesh& me
   return result;
 }
 
-}  // namespace
-
-Layers layers(const TriangleMesh& mesh, const MeshAttributes& attributes, const std::vector<std::uint32_t>& first,
-              std::span<const TriangleNeighbours> neighbours) {
+/// `look_of(triangle)`: numbers that are equal where triangles look alike.
+template <class LookOf>
+Layers sorted_out(const TriangleMesh& mesh, const std::vector<std::uint32_t>& first,
+                  std::span<const TriangleNeighbours> neighbours, const LookOf& look_of) {
   Layers result;
   const auto sorted = candidates(mesh, first, neighbours);
-  const LookWriter writer(mesh, attributes, first);
   for (std::size_t i = 0, end = 0; i < sorted.size(); i = end) {
     while (end < sorted.size() && sorted[end].first == sorted[i].first) ++end;
     if (end - i == 1) continue;
@@ -90,14 +88,31 @@ Layers layers(const TriangleMesh& mesh, const MeshAttributes& attributes, const 
       result.look.assign(mesh.triangles.size(), 0);
       result.sheet.assign(mesh.triangles.size(), 0);
     }
-    std::map<std::vector<std::uint64_t>, std::uint32_t> sheet_of;  // by look
+    std::map<std::vector<std::uint64_t>, std::uint32_t> first_alike;  // by look
     for (std::size_t k = i; k < end; ++k) {
       const std::uint32_t t = sorted[k].second;
-      const auto [at, is_new] = sheet_of.try_emplace(writer.look(t), static_cast<std::uint32_t>(sheet_of.size()));
-      result.look[t] = at->second;
-      result.sheet[t] = is_new ? at->second : no_index;
+      const auto sheet = static_cast<std::uint32_t>(first_alike.size());
+      const auto [at, is_new] = first_alike.try_emplace(look_of(t), t);
+      result.look[t] = is_new ? sheet : result.look[at->second];
+      result.sheet[t] = is_new ? sheet : no_index;
+      if (!is_new) result.repetitions.push_back({t, at->second});
     }
   }
+  return result;
+}
+
+}  // namespace
+
+Layers layers(const TriangleMesh& mesh, const MeshAttributes& attributes, const std::vector<std::uint32_t>& first,
+              std::span<const TriangleNeighbours> neighbours) {
+  const LookWriter writer(mesh, attributes, first);
+  return sorted_out(mesh, first, neighbours, [&](std::uint32_t t) { return writer.look(t); });
+}
+
+Layers single_layer(const TriangleMesh& mesh, const std::vector<std::uint32_t>& first,
+                    std::span<const TriangleNeighbours> neighbours) {
+  Layers result = sorted_out(mesh, first, neighbours, [](std::uint32_t) { return std::vector<std::uint64_t>(); });
+  result.look.clear();
   return result;
 }
 

@@ -95,14 +95,15 @@ bool add_seams(const TriangleMesh& mesh, ChartPartition& charts, const IsSeam& i
   return has_new;
 }
 
-/// Numbers the charts: triangles connected across edges that are no seams.
+/// Numbers the charts: triangles connected across edges that are no seams. Repetitions are in the chart of what they
+/// repeat.
 void number_charts(ChartPartition& charts) {
   const std::size_t triangles = charts.neighbours.size();
   charts.count = 0;
   charts.chart_of.assign(triangles, no_index);
   std::vector<std::uint32_t> open;
   for (std::uint32_t start = 0; start < triangles; ++start) {
-    if (charts.chart_of[start] != no_index) continue;
+    if (charts.chart_of[start] != no_index || charts.layers.repeats(start)) continue;
     open.assign(1, start);
     charts.chart_of[start] = charts.count;
     while (!open.empty()) {
@@ -117,6 +118,7 @@ void number_charts(ChartPartition& charts) {
     }
     ++charts.count;
   }
+  for (const auto& [triangle, of] : charts.layers.repetitions) charts.chart_of[triangle] = charts.chart_of[of];
 }
 
 }  // namespace
@@ -129,7 +131,8 @@ ChartPartition charts(const TriangleMesh& mesh, const MeshAttributes& attributes
   const std::vector<Vec3> positions = positions_of(mesh);
   result.first = first_at_position(positions);
   result.neighbours = edge_neighbours(positions, mesh.triangles);
-  if (has_chart_borders(attributes)) result.layers = layers(mesh, attributes, result.first, result.neighbours);
+  result.layers = has_chart_borders(attributes) ? layers(mesh, attributes, result.first, result.neighbours)
+                                                : single_layer(mesh, result.first, result.neighbours);
   if (!result.layers.empty()) result.neighbours = neighbours_in_layers(mesh, result.layers);
   result.is_seam.resize(triangles, {0, 0, 0});
   (void)add_seams(mesh, result, [&](const Neighbours& at) { return is_seam(attributes, at); });
@@ -157,7 +160,7 @@ std::vector<Edge> seams(const TriangleMesh& mesh, const MeshAttributes& attribut
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto at = [&](std::size_t k) { return all.first[mesh.triangles[t][k]]; };
     if (at(0) == at(1) || at(1) == at(2) || at(2) == at(0)) continue;  // a point or a segment has no border
-    if (!all.layers.empty() && all.layers.sheet[t] == no_index) continue;
+    if (all.layers.repeats(t)) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t other = all.neighbours[t][k];
       const bool is_line = other == no_index ? has_borders : all.is_seam[t][k] != 0 && t < other;
