@@ -92,15 +92,17 @@ struct MeshAttributes {
 };
 
 /// The edges where a simplification must not mix what lies on both sides (`SimplifyOptions::feature_edges`): those
-/// whose two triangles have different materials or parts or, at one of the ends, different texture coordinates or
-/// values of a named attribute that has seams; and, where the mesh has texture coordinates, materials or parts, those
-/// that do not have exactly two triangles in one layer (see `looks`). Vertices at equal positions are one. Throws
+/// whose two triangles have different materials, parts, objects, groups or smoothing groups or, at one of the ends,
+/// different texture coordinates or values of a named attribute that has seams; and, where the mesh has texture
+/// coordinates, materials, parts or several objects, groups or smoothing groups, those that do not have exactly two
+/// triangles in one layer (see `looks`). Vertices at equal positions are one. Throws
 /// `InvalidInput` where the attributes are not those of as many triangles. O(n log n).
 [[nodiscard]] std::vector<Edge> seams(const TriangleMesh& mesh, const MeshAttributes& attributes);
 
 /// `SimplifyOptions::looks`: triangles with the same corners look alike where they show the same side and have the same
-/// material, part and values at their corners. Empty where no two triangles have the same corners, and where the mesh
-/// has neither texture coordinates nor materials nor parts, as a scan. Throws as `seams`. O(n log n).
+/// material, part, object, group and values at their corners. Empty where no two triangles have the same corners, and
+/// where the mesh has neither texture coordinates nor materials nor parts nor several objects, groups or smoothing
+/// groups, as a scan: the first one of all stays then. Throws as `seams`. O(n log n).
 [[nodiscard]] std::vector<std::uint32_t> looks(const TriangleMesh& mesh, const MeshAttributes& attributes);
 
 /// The attributes of a level of `original` that was made with its `seams` as feature edges.

@@ -29,7 +29,8 @@ class LookWriter {
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return at(a) < at(b); });
     result.push_back(order[1] == (order[0] + 1) % 3);
     if (!attributes_.part.empty()) result.push_back(attributes_.part[triangle]);
-    if (!attributes_.materials.empty()) result.push_back(attributes_.materials.index[triangle]);
+    for (const TriangleLabels* labels : {&attributes_.materials, &attributes_.objects, &attributes_.groups})
+      if (!labels->empty()) result.push_back(labels->index[triangle]);
     for (const CornerAttribute* values : {&attributes_.texture_coordinates, &attributes_.normals})
       for (std::size_t k = 0; k < 3 && !values->index.empty(); ++k)
         add(*values, values->index[triangle][order[k]], result);

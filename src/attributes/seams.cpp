@@ -2,6 +2,7 @@
 #include "attributes/seams.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "geometry/position_table.h"
 #include "mesh/attribute_check.h"
@@ -69,14 +70,21 @@ bool differs(const std::vector<std::uint32_t>& by_triangle, const Neighbours& at
 
 bool is_seam(const MeshAttributes& attributes, const Neighbours& at) {
   return differs(attributes.materials.index, at) || differs(attributes.part, at) ||
-         differs(attributes.texture_coordinates, at) ||
+         differs(attributes.objects.index, at) || differs(attributes.groups.index, at) ||
+         differs(attributes.smoothing_groups.index, at) || differs(attributes.texture_coordinates, at) ||
          std::any_of(attributes.named.begin(), attributes.named.end(),
                      [&](const NamedAttribute& named) { return named.has_seams && differs(named, at); });
 }
 
+/// Whether there is a border between labels: one name for the whole mesh has none.
+bool has_several(const TriangleLabels& labels) {
+  return std::adjacent_find(labels.index.begin(), labels.index.end(), std::not_equal_to<>()) != labels.index.end();
+}
+
 /// Whether borders of charts must stay where they are: colours and other numbers alone do not need that.
 bool has_chart_borders(const MeshAttributes& attributes) {
-  return !attributes.texture_coordinates.empty() || !attributes.materials.empty() || !attributes.part.empty();
+  return !attributes.texture_coordinates.empty() || !attributes.materials.empty() || !attributes.part.empty() ||
+         has_several(attributes.objects) || has_several(attributes.groups) || has_several(attributes.smoothing_groups);
 }
 
 /// Makes edges seams where `is_seam(neighbours)`. Returns whether one was none before.

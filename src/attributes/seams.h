@@ -19,8 +19,8 @@ struct ChartPartition {
   Layers layers;                                         ///< neighbours are of one layer
 };
 
-/// Seams are where texture coordinates, materials, parts or named attributes with seams differ. Throws `InvalidInput`
-/// if the attributes are for another number of triangles. O(n log n).
+/// Seams are where texture coordinates, materials, parts, objects, groups, smoothing groups or named attributes with
+/// seams differ. Throws `InvalidInput` if the attributes are for another number of triangles. O(n log n).
 [[nodiscard]] ChartPartition charts(const TriangleMesh& mesh, const MeshAttributes& attributes);
 
 /// `seams` (meshbound/attributes.h) of a mesh with these charts. O(n).
