@@ -178,7 +178,7 @@ int Run::operator()() {
   make_levels();
   if (report_.verdict == Verdict::Within) {
     if (deviation_) measure_deviation();
-  } else if (interrupted_) {
+  } else if (interrupted()) {
     throw Error("interrupted before every level was proven; nothing was written");
   }
   publish();
@@ -240,7 +240,7 @@ void Run::check_paths() const {
 
 void Run::read() {
   read_original(report_.original, true, level_path(0));
-  report_.seconds.read = watch_.lap();
+  report_.seconds.read = clock_.lap();
 }
 
 void Run::choose_tolerances() {
@@ -268,11 +268,11 @@ void Run::choose_view() {
 
 void Run::open_outputs() {
   folder_.emplace(options_.folder);
-  for (std::size_t i = 0; i < tolerances_.size(); ++i) outputs_.emplace_back(level_path(i), stop(), options_.write);
+  for (std::size_t i = 0; i < tolerances_.size(); ++i)
+    outputs_.emplace_back(level_path(i), clock_.stop(), options_.write);
   check_writable(chain_path());
   if (options_.tileset) check_writable(tileset_path());
-  if (!options_.one_file.empty())
-    one_file_.emplace(options_.one_file, AtomicFile::Stream::Staged, StopToken{.cancel = &interrupted_});
+  if (!options_.one_file.empty()) one_file_.emplace(options_.one_file, AtomicFile::Stream::Staged, stop_at_signal());
   if (!options_.common.json.empty()) check_writable(options_.common.json);
   if (options_.deviation.has_any()) deviation_.emplace(options_.deviation);
 }
@@ -292,7 +292,7 @@ void Run::make_levels() {
   report_.provenance = provenance();
   report_.driver = options_.driver;
   report_.threads = threads();
-  report_.seconds.total = watch_.seconds();
+  report_.seconds.total = clock_.seconds();
 }
 
 /// Makes a level and its file, under a temporary name. Returns false, which ends the chain, if it is not proven.
@@ -341,8 +341,8 @@ void Run::note_level(std::size_t index, EndedBy ended_by, DecidedBy decided_by) 
   entry.lines = line_report(output, entry.tolerance);
   entry.texture = texture_report(output);
   entry.normals = normal_report(output);
-  const bool was_late = options_.common.has_time_limit && remaining(1) == 0 &&
-                        (decided_by == DecidedBy::SmallerLevel || decided_by == DecidedBy::Original);
+  const bool was_late =
+      clock_.seconds_left() == 0 && (decided_by == DecidedBy::SmallerLevel || decided_by == DecidedBy::Original);
   entry.stopped_by = to_string(was_late ? EndedBy::TimeLimit : ended_by);
   ended_by_time_ = ended_by_time_ || was_late || ended_by == EndedBy::TimeLimit;
 }
@@ -363,10 +363,10 @@ void Run::measure_deviation() {
   for (std::size_t i = 0; i + 1 < outputs_.size(); ++i)
     subject.levels.push_back({outputs_[i].written_mesh(), maxima_of(outputs_[i].distance())});
   try {
-    deviation_->measure(subject, {threads(), stop()});
+    deviation_->measure(subject, {threads(), clock_.stop()});
     report_.deviation = deviation_->report();
   } catch (const Stopped&) {
-    if (interrupted_) throw Error("interrupted before the deviations were measured; nothing was written");
+    if (interrupted()) throw Error("interrupted before the deviations were measured; nothing was written");
     deviation_.reset();
     std::fprintf(stderr, "lod_chain: no time was left to measure deviations; the report was not written\n");
   }
@@ -379,8 +379,7 @@ void Run::publish() {
   const std::vector<std::filesystem::path> stale = stale_files();
   std::deque<StagedText> documents;
   if (is_proven) stage_chain(documents);
-  if (!options_.common.json.empty())
-    documents.emplace_back(options_.common.json, to_json(report_), StopToken{.cancel = &interrupted_});
+  if (!options_.common.json.empty()) documents.emplace_back(options_.common.json, to_json(report_), stop_at_signal());
   if (report_.deviation) deviation_->stage(to_json(report_));
   const UninterruptedScope together;
   if (is_proven)
@@ -402,9 +401,8 @@ void Run::stage_chain(std::deque<StagedText>& documents) {
     write_levels(*one_file_, outputs_, original_, attributes_, limit, vertices);
     one_file_->complete();
   }
-  const StopToken signals{.cancel = &interrupted_};
-  if (options_.tileset) documents.emplace_back(tileset_path(), tileset_text(), signals);
-  documents.emplace_back(chain_path(), to_json(report_), signals);
+  if (options_.tileset) documents.emplace_back(tileset_path(), tileset_text(), stop_at_signal());
+  documents.emplace_back(chain_path(), to_json(report_), stop_at_signal());
 }
 
 std::string Run::tileset_text() const {

@@ -17,11 +17,10 @@
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/provenance.h"
+#include "common/run_clock.h"
 #include "common/run_limits.h"
 #include "common/signals.h"
-#include "common/stopwatch.h"
 #include "common/threads.h"
-#include "common/time_limit.h"
 #include "common/tool_main.h"
 #include "meshbound/error.h"
 #include "meshbound/pose.h"
@@ -85,12 +84,12 @@ void check(const std::string& path, const StopToken& stop, Input& input) {
 }
 
 PenetrationOptions engine_options(const PenetrationArguments& arguments, const PenetrationReport& report,
-                                  const Stopwatch& watch, ProgressBar& bar) {
+                                  const RunClock& clock, ProgressBar& bar) {
   PenetrationOptions options;
   options.error_bound = report.error_bound;
   if (!report.error_bound) options.decide = report.tolerance;
   options.keep_parts = !arguments.output.empty();
-  set_run_limits(options, arguments.common, watch, bar);
+  set_run_limits(options, arguments.common, clock, bar);
   return options;
 }
 
@@ -120,7 +119,7 @@ void tell(const PenetrationReport& report, const PenetrationArguments& arguments
 }
 
 int run(const PenetrationArguments& arguments) {
-  Stopwatch watch;
+  RunClock clock(arguments.common);
   const PenetrationLengths lengths = check_arguments(arguments);
   std::optional<AffineMap> map_a, map_b;
   if (!arguments.transform_a.empty()) map_a = parse_affine("--transform-a", arguments.transform_a);
@@ -130,33 +129,33 @@ int run(const PenetrationArguments& arguments) {
   Input a, b;
   const bool with_checksums = !arguments.common.json.empty();
   const int threads = arguments.common.threads;
-  const StopToken stop = stop_of_reading(arguments.common, watch);
+  const StopToken stop = clock.stop_of_reading();
   run_both(
       threads, [&] { load(arguments.a, map_a, with_checksums, stop, a, report.a); },
       [&] { load(arguments.b, map_b, with_checksums, stop, b, report.b); });
   report.displacement_a = a.displacement;
   report.displacement_b = b.displacement;
-  report.seconds.read = watch.lap();
-  const StopToken stop_checking = stop_of_run(arguments.common, watch, patience);
+  report.seconds.read = clock.lap();
+  const StopToken stop_checking = clock.stop(patience);
   run_both(
       threads, [&] { check(arguments.a, stop_checking, a); }, [&] { check(arguments.b, stop_checking, b); });
-  report.seconds.check = watch.lap();
+  report.seconds.check = clock.lap();
 
   fill_question(lengths, report);
   const PlacedClosedModel placed_a(*a.model, a.pose), placed_b(*b.model, b.pose);
   {
     ProgressBar bar("measuring", arguments.common.quiet);
-    report.result = penetration_depth(placed_a, placed_b, engine_options(arguments, report, watch, bar));
+    report.result = penetration_depth(placed_a, placed_b, engine_options(arguments, report, clock, bar));
   }
   report.contact = contact_of(report.result, placed_a, placed_b);
   const ExitCode code = conclude(report);
   if (interrupted() && code == ExitUndecided) throw Error("interrupted before the depths were known");
-  report.seconds.query = watch.lap();
+  report.seconds.query = clock.lap();
   if (!arguments.output.empty()) write_parts(arguments.output, report.result);
-  report.seconds.write = watch.lap();
+  report.seconds.write = clock.lap();
   report.provenance = provenance();
   report.threads = threads > 0 ? threads : omp_get_max_threads();
-  report.seconds.total = watch.seconds();
+  report.seconds.total = clock.seconds();
   tell(report, arguments);
   return code;
 }

@@ -198,7 +198,7 @@ int run(const Options& options) {
   Outcome outcome;
   Clock::time_point start = Clock::now();
   Inputs inputs;
-  const StopToken stop{.cancel = &interrupted()};
+  const StopToken stop = stop_at_signal();
   inputs.certificate = certificate_of(options.certificate, stop);
   const bool with_checksums = !options.json.empty();
   const bool with_texture = verify::speaks_of_texture(inputs.certificate);

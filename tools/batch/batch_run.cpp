@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
-#include <limits>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -203,8 +202,7 @@ class BatchRun {
   /// Time after which a process is killed: it should end by itself at its own time limit.
   [[nodiscard]] std::chrono::duration<double> patience() const {
     constexpr double least = 30;  // seconds
-    return std::chrono::duration<double>(common_.has_time_limit ? 2 * common_.time_limit + least
-                                                                : std::numeric_limits<double>::infinity());
+    return std::chrono::duration<double>(2 * common_.time_limit + least);
   }
 
   void fill(const ChildEnd& end, std::size_t asset, AssetRecord& record) const {

@@ -27,7 +27,7 @@ bool is_as_written(const fs::path& path, const std::string& checksum) {
   constexpr fs::perms writers = fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
   if (error || !fs::is_regular_file(status) || (status.permissions() & writers) == fs::perms::none) return false;
   try {
-    return sha256(FileBytes(path, {.cancel = &interrupted()}).bytes()) == checksum;
+    return sha256(FileBytes(path, stop_at_signal()).bytes()) == checksum;
   } catch (const IoError&) {
     return false;
   }

@@ -32,6 +32,10 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   void show(double fraction);
+  /// Calls `show`; this must outlive it.
+  [[nodiscard]] std::function<void(double)> callback() {
+    return [this](double fraction) { show(fraction); };
+  }
 
  private:
   void draw_bar() const;

@@ -3,6 +3,8 @@
 #include <atomic>
 #include <string>
 
+#include "meshbound/stop_token.h"
+
 namespace meshbound::tools {
 
 /// From here on SIGINT, SIGTERM and SIGHUP, unless they are ignored, as under nohup, set the flag of `interrupted`, so
@@ -14,6 +16,8 @@ inline constexpr double grace = 0.25;
 
 /// Set by the first signal after `watch_interrupts`.
 [[nodiscard]] const std::atomic<bool>& interrupted();
+/// A token that stops at that signal.
+[[nodiscard]] inline StopToken stop_at_signal() { return {.cancel = &interrupted()}; }
 
 /// While one lives, a signal does not end the process from outside: for files that appear together. What blocks in here
 /// has to look at the flag whenever a system call fails with EINTR, which then happens again and again.

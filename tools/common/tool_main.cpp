@@ -152,13 +152,8 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
                  "Progress on stderr: auto is a bar on a terminal, plain a line every ten seconds")
       ->check(CLI::IsMember({"auto", "plain", "none"}))
       ->capture_default_str();
-  app.add_option_function<double>(
-         "--time-limit",
-         [&options](double seconds) {
-           options.time_limit = seconds;
-           options.has_time_limit = true;
-         },
-         "Seconds after which the tool ends with what it has proven (exit 3)")
+  app.add_option("--time-limit", options.time_limit,
+                 "Seconds after which the tool ends with what it has proven (exit 3)")
       ->check(number_of_seconds);
   app.add_option_function<std::string>(
          "--json", [&options](const std::string& file) { options.json = file.empty() ? "-" : file; },

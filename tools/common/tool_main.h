@@ -2,6 +2,7 @@
 /// What all tools have in common: exit codes, options, and one line on stderr when something is wrong.
 #pragma once
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,7 @@ struct CommonOptions {
   int threads = 0;  ///< 0: as many as OpenMP has
   bool quiet = false;
   std::string progress = "auto";
-  double time_limit = 0;  ///< seconds of the whole run; meaningful when `has_time_limit`
-  bool has_time_limit = false;
+  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds of the whole run
   std::string json;  ///< file for the JSON document, "-" for stdout, empty for none
 };
 

@@ -88,7 +88,7 @@ std::string lost_attributes(const DecimationOptions& options, const std::filesys
 int internal::undecided_measurements = 0;
 
 DecimationRun::DecimationRun(const DecimationOptions& options)
-    : interrupted_(interrupted()),
+    : clock_(options.common),
       shared_(options),
       measured_original_(original_, options.common.threads),
       threads_(options.common.threads) {
@@ -99,7 +99,7 @@ void DecimationRun::read_original(MeshReport& report, bool with_checksum, const 
   const FileFormat format = format_of(output);
   const bool carries_solids = format == FileFormat::Stl && shared_.write.ascii;
   const bool carries = !shared_.drop_attributes && (carries_attributes(format) || carries_solids);
-  const StopToken stop = stop_of_reading(shared_.common, watch_);
+  const StopToken stop = clock_.stop_of_reading();
   if (shared_.workers != nullptr) {
     stored_original_ = read_stored_input(shared_.input, with_checksum, report, stop, *shared_.workers);
     measured_original_.measure_in_tiles(*stored_original_, *shared_.workers);
@@ -185,10 +185,10 @@ SimplifyOptions DecimationRun::decimation(const GatedOutput& output, double tole
   options.normal_tolerance = shared_.normal_tolerance;
   if (bounds_texture()) guard_texture(texture_tolerance_of(tolerance), options);
   options.precision = rounds_to_floats(output) ? Precision::Single : Precision::Double;
-  options.time_limit = remaining(simplify_share);
+  options.time_limit = clock_.seconds_left(simplify_share);
   options.threads = threads_;
-  options.cancel = &interrupted_;
-  options.progress = [&bar](double fraction) { bar.show(fraction); };
+  options.cancel = &interrupted();
+  options.progress = bar.callback();
   return options;
 }
 
@@ -221,7 +221,7 @@ DistanceOptions DecimationRun::measurement(double tolerance) const {
                             : parse_length("--error-bound", shared_.error_bound).in_model_units(diagonal_);
   options.tolerance = tolerance;
   options.threads = threads_;
-  options.cancel = &interrupted_;
+  options.cancel = &interrupted();
   return options;
 }
 
@@ -232,11 +232,6 @@ RepeatedMeasurement DecimationRun::repeated(const GatedOutput& output, double to
   if (how == DecidedBy::SecondMethod || how == DecidedBy::SmallerLevel)
     repeated.obstacle = "The engine of this page cannot repeat how this was measured: " + explanation(how) + ".";
   return repeated;
-}
-
-double DecimationRun::remaining(double share) const {
-  return shared_.common.has_time_limit ? std::max(0.0, share * shared_.common.time_limit - watch_.seconds())
-                                       : std::numeric_limits<double>::infinity();
 }
 
 /// The original as files like `output` would hold it.
@@ -262,14 +257,14 @@ DecidedBy DecimationRun::make_output(GatedOutput& output, double tolerance, cons
   for (;;) {
     const SimplifiedLevel& level = steps.make();
     end_if_interrupted();
-    seconds.simplify += watch_.lap();
+    seconds.simplify += clock_.lap();
     const bool is_wrong = looks_wrong(output, level);
-    seconds.certify += watch_.lap();
+    seconds.certify += clock_.lap();
     if (is_wrong && takes_back(output)) continue;
     (void)writes(output, level);  // if this fails, `prove` falls back to a smaller output or the original
-    seconds.write += watch_.lap();
+    seconds.write += clock_.lap();
     const DecidedBy how = prove(output, tolerance, steps);
-    seconds.certify += watch_.lap();
+    seconds.certify += clock_.lap();
     if (output.verdict() != Verdict::Within) {
       obstacle_ = obstacle_of(output, tolerance, how == DecidedBy::Original || level.ended_by == EndedBy::Rounding);
       return how;
@@ -282,7 +277,7 @@ DecidedBy DecimationRun::make_output(GatedOutput& output, double tolerance, cons
     }
     if (how == DecidedBy::Measurement && level.ended_by == EndedBy::Target) {
       narrow(output, tolerance);
-      seconds.certify += watch_.lap();
+      seconds.certify += clock_.lap();
     }
     const bool has_more_faces = steps.smaller != nullptr && output.summary().faces > steps.smaller->summary().faces;
     return has_more_faces ? fall_back(output, steps.smaller, measurement(tolerance)) : how;
@@ -480,7 +475,7 @@ std::optional<NormalReport> DecimationRun::normal_report(const GatedOutput& outp
 }
 
 void DecimationRun::end_if_interrupted() const {
-  if (interrupted_) throw Error("interrupted before the result was proven; nothing was written");
+  if (interrupted()) throw Error("interrupted before the result was proven; nothing was written");
 }
 
 int DecimationRun::threads() const { return threads_ > 0 ? threads_ : omp_get_max_threads(); }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
@@ -8,8 +7,8 @@
 
 #include "common/gated_output.h"
 #include "common/progress.h"
-#include "common/stopwatch.h"
-#include "common/time_limit.h"
+#include "common/run_clock.h"
+#include "common/signals.h"
 #include "decimation/decimation_options.h"
 #include "decimation/texture_tolerance.h"
 #include "deviation/measure_here.h"
@@ -53,9 +52,7 @@ class DecimationRun {
   [[nodiscard]] RepeatedMeasurement repeated(const GatedOutput& output, double tolerance, DecidedBy how) const;
   /// What a decimation may use up of a tolerance: the rest is for the rounding in the frames of nodes.
   [[nodiscard]] double before_rounding(double tolerance) const;
-  [[nodiscard]] bool is_out_of_time() const { return interrupted_ || remaining(1) == 0; }
-  /// Seconds of this share of the time limit that are left.
-  [[nodiscard]] double remaining(double share) const;
+  [[nodiscard]] bool is_out_of_time() const { return interrupted() || clock_.seconds_left() == 0; }
   /// No vertex of the original is moved further by writing it to files like `output`, model units; 0: none is moved.
   [[nodiscard]] double max_rounding(const GatedOutput& output) const;
   /// Writes the original under a temporary name and measures it. Says why it is not within the tolerances of `output`;
@@ -91,14 +88,9 @@ class DecimationRun {
                                       SimplifyReport::Seconds& seconds);
   /// For a result whose proof was not finished in time: the one of `smaller`, or the original.
   [[nodiscard]] DecidedBy fall_back(GatedOutput& output, const GatedOutput* smaller, const DistanceOptions& options);
-  /// Stops at a signal, and at the time limit.
-  [[nodiscard]] StopToken stop() const { return stop_of_run(shared_.common, watch_); }
   [[nodiscard]] int threads() const;
-  /// Throws `Stopped` when the time limit comes first.
-  [[nodiscard]] const Bvh& original_tree() { return measured_original_.tree(stop()); }
 
-  const std::atomic<bool>& interrupted_;
-  Stopwatch watch_;
+  RunClock clock_;
   TriangleMesh original_;                        ///< empty where there are workers on tiles
   std::unique_ptr<StoredMesh> stored_original_;  ///< for these
   double diagonal_ = 0;

@@ -87,7 +87,7 @@ void DeviationOutputs::measure(const DeviationSubject& subject, const DeviationO
 }
 
 AtomicFile& DeviationOutputs::add_file(const std::string& path) {
-  return files_.emplace_back(path, AtomicFile::Stream::Staged, StopToken{.cancel = &interrupted()});
+  return files_.emplace_back(path, AtomicFile::Stream::Staged, stop_at_signal());
 }
 
 void DeviationOutputs::stage_heatmap(const std::string& path, const TriangleMesh& mesh,

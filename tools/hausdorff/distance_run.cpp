@@ -17,12 +17,11 @@
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/provenance.h"
+#include "common/run_clock.h"
 #include "common/run_limits.h"
 #include "common/signals.h"
-#include "common/stopwatch.h"
 #include "common/threads.h"
 #include "common/tile_workers.h"
-#include "common/time_limit.h"
 #include "common/tool_main.h"
 #include "deviation/deviation_outputs.h"
 #include "hausdorff/answer.h"
@@ -61,23 +60,22 @@ double load(const std::string& path, const std::optional<AffineMap>& map, bool w
   return displacement;
 }
 
-DistanceOptions engine_options(const Arguments& arguments, const Stopwatch& watch, ProgressBar& bar) {
+DistanceOptions engine_options(const Arguments& arguments, const RunClock& clock, ProgressBar& bar) {
   DistanceOptions options;
   options.method = arguments.method;
-  set_run_limits(options, arguments.common, watch, bar);
+  set_run_limits(options, arguments.common, clock, bar);
   return options;
 }
 
 /// Answers by searching trees. Building these may take until `patience` after the time limit, since the bounds that a
 /// search gives at once are worth more than that time; later, nothing is searched.
 Answer searched_answer(const Question& question, const TriangleMesh& a, const TriangleMesh& b,
-                       const Arguments& arguments, Stopwatch& watch, double& build_seconds) {
+                       const Arguments& arguments, RunClock& clock, double& build_seconds) {
   try {
-    const auto [tree_a, tree_b] =
-        build_trees(a, b, {arguments.common.threads, stop_of_run(arguments.common, watch, patience)});
-    build_seconds = watch.lap();
+    const auto [tree_a, tree_b] = build_trees(a, b, {arguments.common.threads, clock.stop(patience)});
+    build_seconds = clock.lap();
     ProgressBar bar("measuring", arguments.common.quiet);
-    return answer_by_trees(question, tree_a, tree_b, engine_options(arguments, watch, bar));
+    return answer_by_trees(question, tree_a, tree_b, engine_options(arguments, clock, bar));
   } catch (const Stopped&) {
     return unsearched_answer(question);
   }
@@ -104,9 +102,9 @@ std::optional<Answer> answer_without_tiles(const Question& question, const Store
 
 /// As `searched_answer`, tile by tile.
 Answer answer_by_tiles(const Question& question, const StoredMesh& a, const StoredMesh& b, const Arguments& arguments,
-                       const Stopwatch& watch) {
+                       const RunClock& clock) {
   ProgressBar bar("measuring", arguments.common.quiet);
-  DistanceOptions options = engine_options(arguments, watch, bar);
+  DistanceOptions options = engine_options(arguments, clock, bar);
   options.threads = threads_on_tiles(arguments, a, b);
   return answer_in_tiles(question, a, b, options, *arguments.workers);
 }
@@ -144,17 +142,17 @@ std::optional<Certificate> certificate_of(const Arguments& arguments, const Mesh
 /// Writes the proof of tolerances that were found to hold, that of the texture where there is one, under no name yet.
 /// False if there was no time for it.
 bool write_certificate(AtomicFile& file, const Arguments& arguments, const Meshes& meshes, double tolerance,
-                       const std::optional<double>& texture_tolerance, const Stopwatch& watch) {
+                       const std::optional<double>& texture_tolerance, const RunClock& clock) {
   ProgressBar bar("proving", arguments.common.quiet);
   CertificateOptions options;
   options.threads = arguments.common.threads;
   options.cancel = &interrupted();
-  options.progress = [&bar](double fraction) { bar.show(fraction); };
-  options.seconds = seconds_left(arguments.common, watch);
+  options.progress = bar.callback();
+  options.seconds = clock.seconds_left();
   auto certificate = certificate_of(arguments, meshes, tolerance, options);
   if (!certificate) return false;
   if (texture_tolerance) {
-    options.seconds = seconds_left(arguments.common, watch);
+    options.seconds = clock.seconds_left();
     auto with_texture = with_texture_proof(*certificate, meshes.textured(), *texture_tolerance, options);
     if (!with_texture) return false;
     certificate = std::move(with_texture->certificate);
@@ -182,7 +180,7 @@ RepeatedMeasurement repeated(const Answer& answer, const Question& question, con
 
 /// Measures what heatmaps, pictures and reports show. False if there was no time for it.
 bool measure_deviation(DeviationOutputs& outputs, const Answer& answer, const Question& question, const TriangleMesh& a,
-                       const TriangleMesh& b, const Arguments& arguments, const Stopwatch& watch) {
+                       const TriangleMesh& b, const Arguments& arguments, const RunClock& clock) {
   const ProgressBar bar("measuring deviations", arguments.common.quiet);
   DeviationSubject subject;
   subject.original = &a;
@@ -196,7 +194,7 @@ bool measure_deviation(DeviationOutputs& outputs, const Answer& answer, const Qu
   subject.worst_is_on_original = !worst || worst->on_a;
   subject.measurement = repeated(answer, question, arguments);
   try {
-    outputs.measure(subject, {arguments.common.threads, stop_of_run(arguments.common, watch)});
+    outputs.measure(subject, {arguments.common.threads, clock.stop()});
     return true;
   } catch (const Stopped&) {
     if (interrupted()) throw Error("interrupted before the deviation was measured; none of its files was written");
@@ -223,8 +221,7 @@ void fill(DistanceReport& report, const Answer& answer, const Question& question
 void publish(std::optional<AtomicFile>& certificate, std::optional<DeviationOutputs>& deviation,
              const DistanceReport& report, const Arguments& arguments) {
   std::optional<StagedText> json;
-  if (!arguments.common.json.empty())
-    json.emplace(arguments.common.json, to_json(report), StopToken{.cancel = &interrupted()});
+  if (!arguments.common.json.empty()) json.emplace(arguments.common.json, to_json(report), stop_at_signal());
   if (deviation) deviation->stage(to_json(report));
   const UninterruptedScope together;
   if (certificate) certificate->commit();
@@ -284,7 +281,7 @@ TextureDeviation deviation_of(const std::array<TexturedMesh, 2>& meshes, const T
 }
 
 void measure_texture(DistanceReport& report, const Arguments& arguments, const TypedLengths& lengths,
-                     const Meshes& compared, const Stopwatch& watch, Answer& answer) {
+                     const Meshes& compared, const RunClock& clock, Answer& answer) {
   TextureReport texture;
   const std::array<TexturedMesh, 2> meshes = compared.textured();
   texture.compares_floats = compared.attributes_of_a.texture_precision != compared.attributes_of_b.texture_precision;
@@ -296,7 +293,7 @@ void measure_texture(DistanceReport& report, const Arguments& arguments, const T
     texture.tolerance = lengths.texture_tolerance->in_model_units(diagonal, texture.texel_length);
   TextureDeviationOptions options;
   options.threads = arguments.common.threads;
-  options.stop = stop_of_run(arguments.common, watch, patience);
+  options.stop = clock.stop(patience);
   if (lengths.error_bound) options.error_bound = lengths.error_bound->in_model_units(diagonal);
   const bool decides = texture.tolerance && !arguments.worst;
   try {
@@ -326,11 +323,11 @@ double load_for_tiles(const Arguments& arguments, const std::optional<AffineMap>
   return displacement;
 }
 
-Meshes read_meshes(const Arguments& arguments, const Stopwatch& watch, DistanceReport& report) {
+Meshes read_meshes(const Arguments& arguments, const RunClock& clock, DistanceReport& report) {
   std::optional<AffineMap> map;
   if (!arguments.transform_b.empty()) map = parse_affine("--transform-b", arguments.transform_b);
   const bool with_checksums = !arguments.common.json.empty() || !arguments.deviation.report.empty();
-  const StopToken stop = stop_of_reading(arguments.common, watch);
+  const StopToken stop = clock.stop_of_reading();
   Meshes meshes;
   if (arguments.workers != nullptr) {
     meshes.stored_a = read_stored_input(arguments.a, with_checksums, report.a, stop, *arguments.workers);
@@ -359,16 +356,16 @@ double default_width(const Meshes& meshes, double diagonal) {
                          : default_error_bound(meshes.a, meshes.b, diagonal);
 }
 
-Answer answer_to(const Question& question, const Meshes& meshes, const Arguments& arguments, Stopwatch& watch,
+Answer answer_to(const Question& question, const Meshes& meshes, const Arguments& arguments, RunClock& clock,
                  double& build_seconds) {
   std::optional<Answer> found;
   if (arguments.workers == nullptr) {
     found = answer_without_trees(question, meshes.a, meshes.b, arguments.method);
-    if (!found) found = searched_answer(question, meshes.a, meshes.b, arguments, watch, build_seconds);
+    if (!found) found = searched_answer(question, meshes.a, meshes.b, arguments, clock, build_seconds);
   } else {
     const StoredMesh &a = *meshes.stored_a, &b = *meshes.stored_b;
     if (a.triangle_count() == b.triangle_count()) found = answer_without_tiles(question, a, b, arguments);
-    if (!found) found = answer_by_tiles(question, a, b, arguments, watch);
+    if (!found) found = answer_by_tiles(question, a, b, arguments, clock);
   }
   conclude(*found, question);
   if (interrupted() && found->exit_code == ExitUndecided) throw_interrupted(found->bounds);
@@ -378,9 +375,9 @@ Answer answer_to(const Question& question, const Meshes& meshes, const Arguments
 /// Writes the certificate of a tolerance that was found to hold, or drops the file; the answer is undecided if there
 /// was no time for it.
 void certify(std::optional<AtomicFile>& file, const Arguments& arguments, const Meshes& meshes, double tolerance,
-             const std::optional<double>& texture_tolerance, const Stopwatch& watch, Answer& answer) {
+             const std::optional<double>& texture_tolerance, const RunClock& clock, Answer& answer) {
   const bool holds = answer.exit_code == ExitDone;
-  if (holds && write_certificate(*file, arguments, meshes, tolerance, texture_tolerance, watch)) return;
+  if (holds && write_certificate(*file, arguments, meshes, tolerance, texture_tolerance, clock)) return;
   file.reset();
   if (!holds) return;
   if (interrupted()) throw Error("interrupted before the certificate was complete; it was not written");
@@ -393,7 +390,7 @@ void certify(std::optional<AtomicFile>& file, const Arguments& arguments, const 
 }  // namespace
 
 int run_distance(const Arguments& arguments) {
-  Stopwatch watch;
+  RunClock clock(arguments.common);
   const TypedLengths lengths = parse_lengths(arguments);
   if (!arguments.memory.empty()) limit_memory(parse_memory("--memory", arguments.memory));
   if (!arguments.nearest.empty()) return run_nearest(arguments);
@@ -403,25 +400,25 @@ int run_distance(const Arguments& arguments) {
   std::optional<DeviationOutputs> deviation;
   if (arguments.deviation.has_any()) deviation.emplace(arguments.deviation);
   if (!arguments.certificate.empty())
-    certificate.emplace(arguments.certificate, AtomicFile::Stream::Staged, StopToken{.cancel = &interrupted()});
+    certificate.emplace(arguments.certificate, AtomicFile::Stream::Staged, stop_at_signal());
 
   DistanceReport report;
-  const Meshes meshes = read_meshes(arguments, watch, report);
+  const Meshes meshes = read_meshes(arguments, clock, report);
   const Question question = question_about(default_width(meshes, report.a.summary.bbox_diagonal), arguments, lengths,
                                            report.a.summary.bbox_diagonal, meshes.displacement);
-  report.seconds.read = watch.lap();
-  Answer answer = answer_to(question, meshes, arguments, watch, report.seconds.build);
-  report.seconds.query = watch.lap();
+  report.seconds.read = clock.lap();
+  Answer answer = answer_to(question, meshes, arguments, clock, report.seconds.build);
+  report.seconds.query = clock.lap();
   if (arguments.texture) {
     require_texture(arguments.a, meshes.attributes_of_a);
     require_texture(arguments.b, meshes.attributes_of_b);
-    measure_texture(report, arguments, lengths, meshes, watch, answer);
+    measure_texture(report, arguments, lengths, meshes, clock, answer);
   }
   if (certificate) {
     const auto texture_tolerance = report.texture ? report.texture->tolerance : std::nullopt;
-    certify(certificate, arguments, meshes, *question.tolerance, texture_tolerance, watch, answer);
+    certify(certificate, arguments, meshes, *question.tolerance, texture_tolerance, clock, answer);
   }
-  if (deviation && measure_deviation(*deviation, answer, question, meshes.a, meshes.b, arguments, watch)) {
+  if (deviation && measure_deviation(*deviation, answer, question, meshes.a, meshes.b, arguments, clock)) {
     report.deviation = deviation->report();
   } else if (deviation) {
     deviation.reset();
@@ -431,7 +428,7 @@ int run_distance(const Arguments& arguments) {
   }
   report.threads = arguments.common.threads > 0 ? arguments.common.threads : omp_get_max_threads();
   if (arguments.workers != nullptr) report.communication = arguments.workers->communication();
-  report.seconds.total = watch.seconds();
+  report.seconds.total = clock.seconds();
   fill(report, answer, question, arguments);
   publish(certificate, deviation, report, arguments);
   tell(report, arguments);

@@ -14,9 +14,8 @@
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/provenance.h"
+#include "common/run_clock.h"
 #include "common/signals.h"
-#include "common/stopwatch.h"
-#include "common/time_limit.h"
 #include "hausdorff/answer.h"
 #include "hausdorff/pose_file.h"
 #include "meshbound/error.h"
@@ -71,7 +70,7 @@ ExitCode worse(ExitCode x, ExitCode y) {
 }
 
 void follow(Motion& motion, const Bvh& a, const Bvh& b, const std::vector<Pose>& poses, const Arguments& arguments,
-            const Stopwatch& watch) {
+            const RunClock& clock) {
   ProgressBar bar("measuring", arguments.common.quiet);
   MovingPair pair(a, b);
   DistanceOptions options;
@@ -79,7 +78,7 @@ void follow(Motion& motion, const Bvh& a, const Bvh& b, const std::vector<Pose>&
   options.threads = arguments.common.threads;
   options.cancel = &interrupted();
   for (const Pose& pose : poses) {
-    options.budget.seconds = seconds_left(arguments.common, watch);
+    options.budget.seconds = clock.seconds_left();
     if (interrupted() || options.budget.seconds == 0) break;
     motion.steps.push_back(answer_at(pair, pose, motion.question, options));
     const Answer& step = motion.steps.back();
@@ -151,13 +150,13 @@ void print(const Motion& motion) {
 }  // namespace
 
 ExitCode run_motion(const Arguments& arguments) {
-  Stopwatch watch;
+  RunClock clock(arguments.common);
   const TypedLengths lengths = parse_lengths(arguments);
   check_motion_paths(arguments);
   const std::vector<Pose> poses = read_poses(arguments.poses);
   const bool with_checksums = !arguments.common.json.empty();
   Motion motion;
-  const StopToken stop = stop_of_reading(arguments.common, watch);
+  const StopToken stop = clock.stop_of_reading();
   const TriangleMesh a = read_input(arguments.a, with_checksums, motion.a, stop);
   const TriangleMesh b = read_input(arguments.b, with_checksums, motion.b, stop);
   motion.a.dropped.reset();  // nothing is written again
@@ -165,12 +164,11 @@ ExitCode run_motion(const Arguments& arguments) {
   const double diagonal = motion.a.summary.bbox_diagonal;
   motion.question = question_about(default_error_bound(a, b, diagonal), arguments, lengths, diagonal, 0);
   motion.poses = poses.size();
-  const auto [tree_a, tree_b] =
-      build_trees(a, b, {arguments.common.threads, stop_of_run(arguments.common, watch, patience)});
-  watch.lap();
-  follow(motion, tree_a, tree_b, poses, arguments, watch);
-  motion.seconds_of_steps = watch.lap();
-  motion.seconds = watch.seconds();
+  const auto [tree_a, tree_b] = build_trees(a, b, {arguments.common.threads, clock.stop(patience)});
+  clock.lap();
+  follow(motion, tree_a, tree_b, poses, arguments, clock);
+  motion.seconds_of_steps = clock.lap();
+  motion.seconds = clock.seconds();
   if (!arguments.common.json.empty()) write_text(arguments.common.json, to_json(motion));
   const std::string line = closing_line(motion);
   if (arguments.common.quiet && !line.empty()) std::fprintf(stderr, "%s\n", line.c_str());

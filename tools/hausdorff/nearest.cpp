@@ -14,9 +14,8 @@
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/provenance.h"
+#include "common/run_clock.h"
 #include "common/signals.h"
-#include "common/stopwatch.h"
-#include "common/time_limit.h"
 #include "meshbound/error.h"
 #include "meshbound/pose.h"
 #include "meshbound/similarity.h"
@@ -79,7 +78,7 @@ void load(const std::vector<std::string>& paths, const Arguments& arguments, con
   }
 }
 
-SimilarityOptions options_of(const Arguments& arguments, const Stopwatch& watch) {
+SimilarityOptions options_of(const Arguments& arguments, const RunClock& clock) {
   SimilarityOptions options;
   options.count = arguments.count;
   options.align = arguments.align;
@@ -93,7 +92,7 @@ SimilarityOptions options_of(const Arguments& arguments, const Stopwatch& watch)
   options.distance.method = arguments.method;
   options.distance.threads = arguments.common.threads;
   options.distance.cancel = &interrupted();
-  options.distance.budget.seconds = seconds_left(arguments.common, watch);
+  options.distance.budget.seconds = clock.seconds_left();
   return options;
 }
 
@@ -175,27 +174,27 @@ void print(const Candidates& candidates, const SimilarShapes& found, const Simil
 }  // namespace
 
 ExitCode run_nearest(const Arguments& arguments) {
-  const Stopwatch watch;
+  const RunClock clock(arguments.common);
   Candidates candidates;
   const std::vector<std::string> paths = mesh_files(arguments.nearest, arguments.a, candidates.unreadable);
   std::vector<NamedPath> inputs{{"QUERY", arguments.a}};
   for (const std::string& path : paths) inputs.push_back({"a candidate", path});
   require_distinct_files(inputs, {{"--json", arguments.common.json}});
   if (!arguments.common.json.empty()) check_writable(arguments.common.json);
-  (void)options_of(arguments, watch);  // a typing error is told before a long read
+  (void)options_of(arguments, clock);  // a typing error is told before a long read
   MeshReport query_file;
-  const StopToken stop = stop_of_reading(arguments.common, watch);
+  const StopToken stop = clock.stop_of_reading();
   const Shape query(read_input(arguments.a, !arguments.common.json.empty(), query_file, stop),
                     BvhOptions{arguments.common.threads, stop});
   query_file.dropped.reset();  // nothing is written again
   load(paths, arguments, stop, candidates);
-  const SimilarityOptions options = options_of(arguments, watch);
+  const SimilarityOptions options = options_of(arguments, clock);
   const SimilarShapes found = nearest_shapes(query, candidates.shapes, options);
   if (interrupted()) throw Error("interrupted");
   if (!arguments.common.json.empty())
     write_text(arguments.common.json,
-               to_json(query_file, query, candidates, found, options, arguments, watch.seconds()));
-  if (!arguments.common.quiet && arguments.common.json != "-") print(candidates, found, options, watch.seconds());
+               to_json(query_file, query, candidates, found, options, arguments, clock.seconds()));
+  if (!arguments.common.quiet && arguments.common.json != "-") print(candidates, found, options, clock.seconds());
   return is_done(found) ? ExitDone : ExitUndecided;
 }
 

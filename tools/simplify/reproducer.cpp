@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "simplify/reproducer.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "common/output.h"
@@ -37,7 +38,7 @@ std::filesystem::path save_reproducer(const SimplifyArguments& arguments, const 
   if (!arguments.line_tolerance.empty()) options["line_tolerance"] = arguments.line_tolerance;
   options["placement"] = arguments.placement;
   if (run.target_ratio) options["target_ratio"] = *run.target_ratio;
-  if (arguments.common.has_time_limit) options["time_limit"] = arguments.common.time_limit;
+  if (std::isfinite(arguments.common.time_limit)) options["time_limit"] = arguments.common.time_limit;
   write_text(folder / "options.json", options.dump(2) + '\n');
   return folder;
 }

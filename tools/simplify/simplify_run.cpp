@@ -114,7 +114,7 @@ void Run::parse_target() {
 void Run::read() {
   read_original(report_.original, has_document(), options_.output);
   if (!options_.memory.empty()) plan_memory();
-  report_.seconds.read = watch_.lap();
+  report_.seconds.read = clock_.lap();
 }
 
 /// Sets the number of triangles in a tile and the threads by --memory. The limit itself holds since the start of the
@@ -152,17 +152,16 @@ void Run::open_outputs() {
     if (!options_.output_dir.empty()) folder_.emplace(options_.output_dir);
     for (std::size_t i = 0; i < tolerances_.size(); ++i) {
       const bool is_level = i + 1 < tolerances_.size() || options_.tolerance.empty();
-      if (is_level) outputs_.emplace_back(level_path(options_, i), stop(), options_.write);
+      if (is_level) outputs_.emplace_back(level_path(options_, i), clock_.stop(), options_.write);
     }
   }
-  outputs_.emplace_back(options_.output, stop(), options_.write);
+  outputs_.emplace_back(options_.output, clock_.stop(), options_.write);
   outputs_.back().write_by(options_.workers);
   if (options_.deviation.has_any()) deviation_.emplace(options_.deviation);
   if (options_.certificate.empty()) return;
-  const StopToken signals{.cancel = &interrupted_};
   for (std::size_t i = 0; i + 1 < outputs_.size(); ++i)
-    certificates_.emplace_back(level_certificate_path(options_, i), AtomicFile::Stream::Staged, signals);
-  certificates_.emplace_back(options_.certificate, AtomicFile::Stream::Staged, signals);
+    certificates_.emplace_back(level_certificate_path(options_, i), AtomicFile::Stream::Staged, stop_at_signal());
+  certificates_.emplace_back(options_.certificate, AtomicFile::Stream::Staged, stop_at_signal());
 }
 
 /// Sets the options of all levels.
@@ -298,15 +297,15 @@ std::optional<Certificate> Run::certificate_of(const GatedOutput& output, double
 /// is certified in one pass.
 void Run::write_certificates() {
   if (certificates_.empty()) return;
-  watch_.lap();
+  clock_.lap();
   ProgressBar bar("proving", options_.common.quiet);
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     CertificateOptions options;
     options.threads = options_.common.threads;
     const bool is_original = decided_by_[i] == DecidedBy::Original || result_.last().collapses_performed == 0;
-    if (!is_original) options.seconds = remaining(1);
-    options.cancel = &interrupted_;
-    options.progress = [&](double fraction) { bar.show(fraction); };
+    if (!is_original) options.seconds = clock_.seconds_left();
+    options.cancel = &interrupted();
+    options.progress = bar.callback();
     const double tolerance = tolerance_of(i);
     auto certificate = certificate_of(outputs_[i], tolerance, options);
     end_if_interrupted();
@@ -321,7 +320,7 @@ void Run::write_certificates() {
     certificates_[i].complete();
     report_.certificates.push_back({certificates_[i].path().string(), bytes.size()});
   }
-  report_.seconds.certificate = watch_.lap();
+  report_.seconds.certificate = clock_.lap();
 }
 
 /// Measures deviations of the meshes as they read from their files. Leaves `deviation_` empty if there was no time for
@@ -349,7 +348,7 @@ void Run::measure_deviation() {
     for (std::size_t i = 0; i + 1 < outputs_.size(); ++i)
       subject.levels.push_back({outputs_[i].written_mesh(), maxima_of(outputs_[i].distance())});
   try {
-    deviation_->measure(subject, {options_.common.threads, stop()});
+    deviation_->measure(subject, {options_.common.threads, clock_.stop()});
     report_.deviation = deviation_->report();
   } catch (const Stopped&) {
     end_if_interrupted();
@@ -383,15 +382,14 @@ void Run::describe() {
   if (!options_.memory.empty()) report_.memory = MemoryReport{peak_memory(), parse_memory("--memory", options_.memory)};
   report_.threads = threads();
   if (options_.workers != nullptr) report_.communication = options_.workers->communication();
-  report_.seconds.total = watch_.seconds();
+  report_.seconds.total = clock_.seconds();
 }
 
 /// Makes all files appear; without a proof that is the document alone. Everything that a full disk can prevent comes
 /// before the first one. A certificate comes after its mesh, and the document after what it names.
 void Run::publish() {
   std::optional<StagedText> json;
-  if (!options_.common.json.empty())
-    json.emplace(options_.common.json, to_json(report_), StopToken{.cancel = &interrupted_});
+  if (!options_.common.json.empty()) json.emplace(options_.common.json, to_json(report_), stop_at_signal());
   if (report_.deviation) deviation_->stage(to_json(report_));
   const UninterruptedScope together;
   if (verdict_ == Verdict::Within) {
@@ -421,11 +419,10 @@ void Run::tell_obstacle() const {
 }
 
 bool Run::ended_by_time() const {
-  if (!options_.common.has_time_limit) return false;
   const bool was_late = std::any_of(decided_by_.begin(), decided_by_.end(), [](DecidedBy how) {
     return how == DecidedBy::SmallerLevel || how == DecidedBy::Original;
   });
-  return result_.last().ended_by == EndedBy::TimeLimit || (was_late && remaining(1) == 0);
+  return result_.last().ended_by == EndedBy::TimeLimit || (was_late && clock_.seconds_left() == 0);
 }
 
 }  // namespace

@@ -16,9 +16,8 @@
 #include "common/output_folder.h"
 #include "common/progress.h"
 #include "common/provenance.h"
+#include "common/run_clock.h"
 #include "common/signals.h"
-#include "common/stopwatch.h"
-#include "common/time_limit.h"
 #include "decimation/drivers.h"
 #include "mesh/writers.h"
 #include "meshbound/error.h"
@@ -35,7 +34,11 @@ namespace fs = std::filesystem;
 class ViewRun {
  public:
   ViewRun(const DecimationOptions& options, const ViewRequest& request)
-      : options_(options), request_(request), folder_(request.folder), format_(request.format) {}
+      : options_(options),
+        request_(request),
+        folder_(request.folder),
+        format_(request.format),
+        clock_(options.common) {}
 
   int operator()() {
     if (is_gltf(request_.scene))
@@ -57,13 +60,13 @@ class ViewRun {
   void read_json() {
     scene_ = read_scene(request_.scene);
     check_paths();
-    const StopToken stop = stop_of_reading(options_.common, watch_);
+    const StopToken stop = clock_.stop_of_reading();
     for (const std::string& path : scene_.models)
       meshes_.push_back(read_input(path, true, models_.emplace_back(), stop));
   }
 
   void read_gltf() {
-    gltf_ = read_gltf_view(request_.scene, request_.screen, stop_of_reading(options_.common, watch_));
+    gltf_ = read_gltf_view(request_.scene, request_.screen, clock_.stop_of_reading());
     scene_ = std::move(gltf_->scene);
     meshes_ = std::move(gltf_->meshes);
     models_ = std::move(gltf_->reports);
@@ -100,9 +103,8 @@ class ViewRun {
     if (stores_floats(format_of(level_file(0, 1)), options_.write)) view.lod.precision = Precision::Single;
     view.lod.threads = options_.common.threads;
     view.lod.cancel = &interrupted();
-    view.lod.progress = [&bar](double fraction) { bar.show(fraction); };
-    if (options_.common.has_time_limit)
-      view.lod.time_limit = std::max(0.0, options_.common.time_limit - watch_.seconds());
+    view.lod.progress = bar.callback();
+    view.lod.time_limit = clock_.seconds_left();
     levels_ = view_levels(meshes_, scene_.instances, scene_.cameras, view,
                           [this](std::size_t model, std::size_t level, const LodLevel& made) {
                             ended_by_time_ = ended_by_time_ || made.ended_by == EndedBy::TimeLimit;
@@ -116,7 +118,7 @@ class ViewRun {
       throw Error("interrupted; the levels written so far are in " + folder_ + ", without a view.json");
     const fs::path path = fs::path(folder_) / name;
     write_mesh(path, mesh, options_.write);
-    if (!same_surface(read_file(path.string(), false, {.cancel = &interrupted()}).content.mesh, mesh))
+    if (!same_surface(read_file(path.string(), false, stop_at_signal()).content.mesh, mesh))
       throw Error(path.string() + " reads as another mesh than was measured; use PLY, OFF or OBJ");
   }
 
@@ -157,7 +159,7 @@ class ViewRun {
     if (gltf_) json["orthographic_cameras"] = gltf_->orthographic_cameras;
     json["levels_computed"] = levels_.levels_computed;
     json["levels_skipped"] = levels_.levels_skipped;
-    json["seconds"] = {{"total", number(watch_.seconds())}};
+    json["seconds"] = {{"total", number(clock_.seconds())}};
     return text(json);
   }
 
@@ -180,13 +182,13 @@ class ViewRun {
       print_line("left out", "orthographic cameras: " + std::to_string(gltf_->orthographic_cameras));
     print_line("levels", std::to_string(levels_.levels_computed) + " computed, " +
                              std::to_string(levels_.levels_skipped) + " that no instance needs skipped");
-    print_line("seconds", "total " + rounded_seconds(watch_.seconds()));
+    print_line("seconds", "total " + rounded_seconds(clock_.seconds()));
   }
 
   const DecimationOptions& options_;
   const ViewRequest& request_;
   const std::string &folder_, &format_;
-  Stopwatch watch_;
+  RunClock clock_;
   SceneFile scene_;
   std::optional<GltfView> gltf_;  ///< where the scene is one of glTF: what is left of it besides the scene
   std::vector<MeshReport> models_;
