@@ -183,7 +183,7 @@ int Run::operator()() {
   }
   publish();
   const bool is_within = report_.verdict == Verdict::Within;
-  if (is_within && options_.common.json != "-" && !options_.common.quiet) print_summary();
+  if (is_within && options_.common.prints_summary()) print_summary();
   if (!is_within)
     std::fprintf(stderr, "lod_chain: %s; nothing was written\n", obstacle_.c_str());
   else if (ended_by_time_)
@@ -273,7 +273,7 @@ void Run::open_outputs() {
   check_writable(chain_path());
   if (options_.tileset) check_writable(tileset_path());
   if (!options_.one_file.empty()) one_file_.emplace(options_.one_file, AtomicFile::Stream::Staged, stop_at_signal());
-  if (!options_.common.json.empty()) check_writable(options_.common.json);
+  check_writable(options_.common.json);
   if (options_.deviation.has_any()) deviation_.emplace(options_.deviation);
 }
 

@@ -2,8 +2,6 @@
 // The volumes that two closed meshes have in common, and how deep each is, as proven intervals.
 #include "meshbound/penetration_depth.h"
 
-#include <omp.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -108,16 +106,6 @@ const char* contact_of(const PenetrationDepth& depth, const PlacedClosedModel& a
   return in_contact(a, b) ? "touching" : "none";
 }
 
-void tell(const PenetrationReport& report, const PenetrationArguments& arguments) {
-  if (!arguments.common.json.empty()) write_text(arguments.common.json, to_json(report));
-  if (arguments.common.quiet) {
-    const std::string line = closing_line(report);
-    if (!line.empty()) std::fprintf(stderr, "%s\n", line.c_str());
-  } else if (arguments.common.json != "-") {
-    print_report(report);
-  }
-}
-
 int run(const PenetrationArguments& arguments) {
   RunClock clock(arguments.common);
   const PenetrationLengths lengths = check_arguments(arguments);
@@ -154,9 +142,10 @@ int run(const PenetrationArguments& arguments) {
   if (!arguments.output.empty()) write_parts(arguments.output, report.result);
   report.seconds.write = clock.lap();
   report.provenance = provenance();
-  report.threads = threads > 0 ? threads : omp_get_max_threads();
+  report.threads = threads;
   report.seconds.total = clock.seconds();
-  tell(report, arguments);
+  if (!arguments.common.json.empty()) write_text(arguments.common.json, to_json(report));
+  tell(arguments.common, closing_line(report), [&] { print_report(report); });
   return code;
 }
 

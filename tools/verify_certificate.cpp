@@ -2,9 +2,6 @@
 // verify_certificate ORIGINAL SIMPLIFIED CERTIFICATE: exit 0 when the certificate proves that the two meshes are within
 // its tolerance of each other, 1 when it does not, 2 for bad usage and files that cannot be read.
 #include <CLI/CLI.hpp>
-#include <Eigen/Geometry>
-#include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -20,10 +17,12 @@
 #include "common/provenance.h"
 #include "common/sha256.h"
 #include "common/signals.h"
+#include "common/stopwatch.h"
 #include "common/tool_main.h"
 #include "mesh/file_bytes.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
+#include "meshbound/mesh_summary.h"
 #include "report/json_parts.h"
 #include "verify/certificate_reader.h"
 #include "verify/verifier.h"
@@ -32,7 +31,6 @@ namespace meshbound::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
 
 struct Options {
   std::string original, simplified, certificate, tolerance, line_tolerance, texture_tolerance, json;
@@ -46,8 +44,6 @@ struct Inputs {
   std::vector<std::uint8_t> certificate;
 };
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
 /// Reads the magic first: if the file is no certificate, nothing more is read, however long it is.
 std::vector<std::uint8_t> certificate_of(const std::string& path, const StopToken& stop) {
   const FileBytes head(path, stop, verify::magic.size());
@@ -57,20 +53,11 @@ std::vector<std::uint8_t> certificate_of(const std::string& path, const StopToke
   return {file.bytes().begin(), file.bytes().end()};
 }
 
-/// The bounding-box diagonal of the used vertices, for tolerances in percent.
-double diagonal_of(const TriangleMesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t vertex : t) box.extend(mesh.vertices[vertex]);
-  const Eigen::Vector3d size = box.sizes();
-  return std::hypot(size.x(), size.y(), size.z());
-}
-
 /// Rejects what proves a larger tolerance than `option` asks for, or nothing where it asks for something.
 void require_tolerance(std::optional<double> proven, const std::string& option, const std::string& typed,
                        const std::string& of_what, const TriangleMesh& original) {
   if (typed.empty()) return;
-  const double wanted = parse_length(option, typed).in_model_units(diagonal_of(original));
+  const double wanted = parse_length(option, typed).in_model_units(bounding_box_diagonal(original));
   if (!proven) throw verify::Rejected("it proves nothing" + of_what);
   if (*proven > wanted)
     throw verify::Rejected("it proves a tolerance of " + exact_number(*proven) + of_what + ", more than the wanted " +
@@ -194,9 +181,9 @@ int run(const Options& options) {
   require_distinct_files(
       {{"ORIGINAL", options.original}, {"SIMPLIFIED", options.simplified}, {"CERTIFICATE", options.certificate}},
       {{"--json", options.json}});
-  if (!options.json.empty()) check_writable(options.json);
+  check_writable(options.json);
   Outcome outcome;
-  Clock::time_point start = Clock::now();
+  Stopwatch watch;
   Inputs inputs;
   const StopToken stop = stop_at_signal();
   inputs.certificate = certificate_of(options.certificate, stop);
@@ -210,8 +197,7 @@ int run(const Options& options) {
   inputs.simplified = std::move(simplified.content.mesh);
   inputs.simplified_attributes = std::move(simplified.content.attributes);
   inputs.simplified_sha256 = simplified.sha256;
-  outcome.read_seconds = seconds_since(start);
-  start = Clock::now();
+  outcome.read_seconds = watch.lap();
   try {
     outcome.proof = verify::check_certificate(inputs.original, inputs.simplified, inputs.certificate,
                                               &inputs.original_attributes, &inputs.simplified_attributes);
@@ -220,7 +206,7 @@ int run(const Options& options) {
     outcome.proof.reset();
     outcome.reason = rejected.what();
   }
-  outcome.verify_seconds = seconds_since(start);
+  outcome.verify_seconds = watch.lap();
   if (!options.json.empty()) write_json(options, inputs, outcome);
   if (!outcome.proof) {
     std::fprintf(stderr, "verify_certificate: %s: rejected: %s\n", options.certificate.c_str(), outcome.reason.c_str());
@@ -247,12 +233,7 @@ void declare(CLI::App& app, Options& options) {
       "Reject certificates that prove nothing about the texture, or a larger tolerance: units as --tolerance. "
       "What the other mesh does not cover in the texture does not count; how much that is, is printed");
   app.add_flag("--quiet", options.quiet, "Nothing on stdout; the exit code tells");
-  app.add_option_function<std::string>(
-         "--json", [&options](const std::string& file) { options.json = file.empty() ? "-" : file; },
-         "Write the result as JSON to a file; '-' or nothing: to stdout, and nothing else there")
-      ->check(no_mesh_name)
-      ->type_name("[FILE]")
-      ->expected(0, 1);
+  add_json_option(app, options.json);
   app.footer("Exit codes: 0 proven, 1 rejected, 2 bad usage or files that cannot be read.");
   add_examples(app, {"verify_certificate bunny.ply small.ply small.cert"});
   app.set_version_flag("--version", "verify_certificate " MESHBOUND_VERSION);

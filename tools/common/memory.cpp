@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "common/memory.h"
 
-#include <omp.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -93,7 +92,7 @@ int threads_within(std::uint64_t limit, const std::string& option, std::size_t t
   const double room = (static_cast<double>(limit) - least) / tile + 1;
   if (room < 1)
     throw InvalidInput(option + ": " + std::to_string(triangles) + " triangles need at least " + in_mebibytes(least));
-  return static_cast<int>(std::min(room, static_cast<double>(wanted > 0 ? wanted : omp_get_max_threads())));
+  return static_cast<int>(std::min(room, static_cast<double>(wanted)));
 }
 
 }  // namespace meshbound::tools

@@ -40,7 +40,7 @@ inline constexpr TileCost cost_of_measuring{8, 400};
 /// which take up to 1.2 times as much as the arrays of both. It does not depend on the limit, so that no result does.
 [[nodiscard]] bool fits_to_compare(std::size_t vertices, std::size_t triangles, const TileOptions& tiles);
 
-/// How many of the wanted threads (0: as many as OpenMP has) may work on tiles of this many triangles within a limit in
+/// How many of the wanted threads may work on tiles of this many triangles within a limit in
 /// bytes. Throws `InvalidInput` that names `option` if not even one may.
 [[nodiscard]] int threads_within(std::uint64_t limit, const std::string& option, std::size_t triangles,
                                  const TileOptions& tiles, const TileCost& cost, int wanted);

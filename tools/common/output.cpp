@@ -15,6 +15,7 @@
 namespace meshbound::tools {
 
 void check_writable(const std::string& path) {
+  if (path.empty()) return;
   if (path != "-") {
     (void)output_target(path);
   } else if ((::fcntl(STDOUT_FILENO, F_GETFL) & O_ACCMODE) == O_RDONLY) {

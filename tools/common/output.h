@@ -8,7 +8,7 @@
 
 namespace meshbound::tools {
 
-/// Throws `IoError` if `write_text` could not write to `path`, so that this is known before any work.
+/// Throws `IoError` if `write_text` could not write to `path`, so that this is known before any work. Empty: no file.
 void check_writable(const std::string& path);
 
 /// Writes `text` to stdout when `path` is "-", else as `AtomicFile` does: a failure leaves what was there before.

@@ -145,6 +145,15 @@ void add_write_options(CLI::App& app, WriteOptions& options) {
                "as STL always does");
 }
 
+void add_json_option(CLI::App& app, std::string& json) {
+  app.add_option_function<std::string>(
+         "--json", [&json](const std::string& file) { json = file.empty() ? "-" : file; },
+         "Write the result as JSON to a file; '-' or nothing: to stdout, and nothing else there")
+      ->check(no_mesh_name)
+      ->type_name("[FILE]")
+      ->expected(0, 1);
+}
+
 void add_common_options(CLI::App& app, CommonOptions& options) {
   app.add_option("--threads", options.threads, "Threads to use (default: all)")->check(CLI::Range(1, 1024));
   app.add_flag("--quiet", options.quiet, "No progress and no summary, only what was asked for and errors");
@@ -155,12 +164,7 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
   app.add_option("--time-limit", options.time_limit,
                  "Seconds after which the tool ends with what it has proven (exit 3)")
       ->check(number_of_seconds);
-  app.add_option_function<std::string>(
-         "--json", [&options](const std::string& file) { options.json = file.empty() ? "-" : file; },
-         "Write the result as JSON to a file; '-' or nothing: to stdout, and nothing else there")
-      ->check(no_mesh_name)
-      ->type_name("[FILE]")
-      ->expected(0, 1);
+  add_json_option(app, options.json);
   app.final_callback([&options] {
     options.threads = start_threads(options.threads);
     set_progress_style(progress_style(options.progress));
@@ -169,6 +173,11 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
       "Exit codes: 0 done or within the tolerance, 1 not within it, 2 bad usage or input, 3 undecided or ended by a "
       "limit.");
   app.set_version_flag("--version", app.get_name() + " " MESHBOUND_VERSION);
+}
+
+void tell(const CommonOptions& options, const std::string& closing_line, const std::function<void()>& print) {
+  if (options.prints_summary()) print();
+  if (options.quiet && !closing_line.empty()) std::fprintf(stderr, "%s\n", closing_line.c_str());
 }
 
 void add_examples(CLI::App& app, const std::vector<std::string>& command_lines) {

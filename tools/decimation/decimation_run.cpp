@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "decimation/decimation_run.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <limits>
@@ -477,8 +475,6 @@ std::optional<NormalReport> DecimationRun::normal_report(const GatedOutput& outp
 void DecimationRun::end_if_interrupted() const {
   if (interrupted()) throw Error("interrupted before the result was proven; nothing was written");
 }
-
-int DecimationRun::threads() const { return threads_ > 0 ? threads_ : omp_get_max_threads(); }
 
 void print_dropped(const MeshReport& original) {
   if (original.dropped && *original.dropped != DroppedAttributes{})

@@ -88,7 +88,7 @@ class DecimationRun {
                                       SimplifyReport::Seconds& seconds);
   /// For a result whose proof was not finished in time: the one of `smaller`, or the original.
   [[nodiscard]] DecidedBy fall_back(GatedOutput& output, const GatedOutput* smaller, const DistanceOptions& options);
-  [[nodiscard]] int threads() const;
+  [[nodiscard]] int threads() const { return threads_; }
 
   RunClock clock_;
   TriangleMesh original_;                        ///< empty where there are workers on tiles
@@ -133,7 +133,7 @@ class DecimationRun {
   std::optional<TriangleMesh> rounded_original_;
   double texel_length_ = 0;  ///< model units, where there is a texture size
   MeshWithTree measured_original_;
-  int threads_;  ///< 0: as many as OpenMP has
+  int threads_;
 };
 
 /// "dropped: 6553 texture coordinates, 1 material", a line on stdout where the original has what no output carries, and

@@ -2,8 +2,6 @@
 // The Hausdorff distance between two meshes as a proven interval, or the decision whether it is at most a tolerance.
 #include "hausdorff/distance_run.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <optional>
@@ -116,7 +114,7 @@ void check_paths(const Arguments& arguments) {
   outputs.push_back({"--certificate", arguments.certificate});
   require_distinct_files({{"A", arguments.a}, {"B", arguments.b}, {"--transform-b", arguments.transform_b}}, outputs);
   arguments.deviation.check();
-  if (!arguments.common.json.empty()) check_writable(arguments.common.json);
+  check_writable(arguments.common.json);
 }
 
 /// What is compared, as read.
@@ -227,16 +225,6 @@ void publish(std::optional<AtomicFile>& certificate, std::optional<DeviationOutp
   if (certificate) certificate->commit();
   if (deviation) deviation->publish();
   if (json) json->publish();
-}
-
-/// Writes the text. With --quiet, an answer that is no success is still reported on stderr.
-void tell(const DistanceReport& report, const Arguments& arguments) {
-  if (arguments.common.quiet) {
-    const std::string line = closing_line(report);
-    if (!line.empty()) std::fprintf(stderr, "%s\n", line.c_str());
-  } else if (arguments.common.json != "-") {
-    print_report(report, arguments.profile);
-  }
 }
 
 /// Reports the bounds proven before an interruption: they may have taken an hour.
@@ -426,12 +414,12 @@ int run_distance(const Arguments& arguments) {
                  provenance().tool.c_str());
     answer.exit_code = ExitUndecided;
   }
-  report.threads = arguments.common.threads > 0 ? arguments.common.threads : omp_get_max_threads();
+  report.threads = arguments.common.threads;
   if (arguments.workers != nullptr) report.communication = arguments.workers->communication();
   report.seconds.total = clock.seconds();
   fill(report, answer, question, arguments);
   publish(certificate, deviation, report, arguments);
-  tell(report, arguments);
+  tell(arguments.common, closing_line(report), [&] { print_report(report, arguments.profile); });
   return answer.exit_code;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "hausdorff/motion.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -41,7 +39,7 @@ struct Motion {
 void check_motion_paths(const Arguments& arguments) {
   require_distinct_files({{"A", arguments.a}, {"B", arguments.b}, {"--poses", arguments.poses}},
                          {{"--json", arguments.common.json}});
-  if (!arguments.common.json.empty()) check_writable(arguments.common.json);
+  check_writable(arguments.common.json);
 }
 
 Answer answer_at(MovingPair& pair, const Pose& pose, const Question& question, DistanceOptions options) {
@@ -170,9 +168,7 @@ ExitCode run_motion(const Arguments& arguments) {
   motion.seconds_of_steps = clock.lap();
   motion.seconds = clock.seconds();
   if (!arguments.common.json.empty()) write_text(arguments.common.json, to_json(motion));
-  const std::string line = closing_line(motion);
-  if (arguments.common.quiet && !line.empty()) std::fprintf(stderr, "%s\n", line.c_str());
-  if (!arguments.common.quiet && arguments.common.json != "-") print(motion);
+  tell(arguments.common, closing_line(motion), [&] { print(motion); });
   return motion.exit_code;
 }
 

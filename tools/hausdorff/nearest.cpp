@@ -180,7 +180,7 @@ ExitCode run_nearest(const Arguments& arguments) {
   std::vector<NamedPath> inputs{{"QUERY", arguments.a}};
   for (const std::string& path : paths) inputs.push_back({"a candidate", path});
   require_distinct_files(inputs, {{"--json", arguments.common.json}});
-  if (!arguments.common.json.empty()) check_writable(arguments.common.json);
+  check_writable(arguments.common.json);
   (void)options_of(arguments, clock);  // a typing error is told before a long read
   MeshReport query_file;
   const StopToken stop = clock.stop_of_reading();
@@ -194,7 +194,7 @@ ExitCode run_nearest(const Arguments& arguments) {
   if (!arguments.common.json.empty())
     write_text(arguments.common.json,
                to_json(query_file, query, candidates, found, options, arguments, clock.seconds()));
-  if (!arguments.common.quiet && arguments.common.json != "-") print(candidates, found, options, clock.seconds());
+  if (arguments.common.prints_summary()) print(candidates, found, options, clock.seconds());
   return is_done(found) ? ExitDone : ExitUndecided;
 }
 

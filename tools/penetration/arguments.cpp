@@ -41,7 +41,7 @@ PenetrationLengths check_arguments(const PenetrationArguments& arguments) {
                           {"--transform-a", arguments.transform_a},
                           {"--transform-b", arguments.transform_b}},
                          {{"--json", arguments.common.json}, {"--output", arguments.output}});
-  if (!arguments.common.json.empty()) check_writable(arguments.common.json);
+  check_writable(arguments.common.json);
   if (!arguments.output.empty()) {
     require_parts_format(arguments.output);
     check_writable(arguments.output);

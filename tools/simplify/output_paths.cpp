@@ -35,7 +35,7 @@ void check_paths(const SimplifyArguments& options) {
   }
   require_distinct_files({{"IN", options.input}, {"--feature-edges", options.feature_edges}}, outputs);
   options.deviation.check();
-  if (!options.common.json.empty()) check_writable(options.common.json);
+  check_writable(options.common.json);
 }
 
 }  // namespace meshbound::tools

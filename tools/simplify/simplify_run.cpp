@@ -402,8 +402,7 @@ void Run::publish() {
 }
 
 void Run::tell() {
-  const bool is_stdout_taken = options_.common.json == "-" || is_stream_path(options_.output);
-  if (verdict_ == Verdict::Within && !is_stdout_taken && !options_.common.quiet) {
+  if (verdict_ == Verdict::Within && options_.common.prints_summary() && !is_stream_path(options_.output)) {
     const bool is_rounded = result_.last().ended_by == EndedBy::Rounding;
     print_summary({options_, report_, result_, outputs_, decided_by_, ended_by_time(), diagonal_,
                    is_rounded ? rounding_reason(outputs_.back(), report_.tolerance) : ""});

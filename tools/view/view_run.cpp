@@ -50,7 +50,7 @@ class ViewRun {
     const std::string document = to_json();
     write_text(view_path().string(), document);
     if (!options_.common.json.empty()) write_text(options_.common.json, document);
-    if (options_.common.json != "-" && !options_.common.quiet) print();
+    if (options_.common.prints_summary()) print();
     if (!ended_by_time_) return ExitDone;
     std::fprintf(stderr, "lod_chain: the time limit came first: levels are the best meshes that were proven by then\n");
     return ExitUndecided;
@@ -78,9 +78,8 @@ class ViewRun {
     return "model_" + std::to_string(model) + "_lod_" + std::to_string(level) + "." + format_;
   }
 
-  /// More levels than these no model can have.
   void check_paths() const {
-    constexpr std::size_t max_levels = 16;
+    constexpr std::size_t max_levels = 16;  // no model can have more
     std::vector<NamedPath> inputs{{"--scene", request_.scene}},
         outputs{{"DIR", view_path()}, {"--json", options_.common.json}};
     for (std::size_t model = 0; model < scene_.models.size(); ++model) {
@@ -89,7 +88,7 @@ class ViewRun {
         outputs.push_back({"DIR", fs::path(folder_) / level_file(model, level)});
     }
     require_distinct_files(inputs, outputs);
-    if (!options_.common.json.empty()) check_writable(options_.common.json);
+    check_writable(options_.common.json);
   }
 
   void make_levels() {
