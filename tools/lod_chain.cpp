@@ -7,6 +7,7 @@
 #include <deque>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,7 @@
 #include "deviation/deviation_outputs.h"
 #include "levels/scene_run.h"
 #include "lod/one_file.h"
+#include "lod/pixel_limit.h"
 #include "lod/tileset.h"
 #include "meshbound/error.h"
 #include "numeric/sort_unique.h"
@@ -87,9 +89,6 @@ void declare(CLI::App& app, Options& options) {
       app, {"lod_chain bunny.ply lods --levels 0.1%,0.3%,1%", "lod_chain bunny.ply lods --pixels 1,2,4 --distances 3"});
 }
 
-constexpr double default_screen_height = 1080;  // pixels
-constexpr double default_fov = 60;              // degrees
-
 /// In degrees: smaller fields of view are those of telescopes, and every angle in radians is below this.
 constexpr double smallest_usual_fov = 5;
 
@@ -122,9 +121,9 @@ int run_scene(const Options& options) {
   if (options.deviation.has_any())
     throw InvalidInput("--report shows the levels of one mesh; leave it out with --scene");
   check_no_use_in_scenes(options);
-  ViewRequest request{.scene = options.scene, .folder = options.input, .format = options.format, .screen = {}};
-  if (!options.pixels.empty()) request.screen.pixels = options.pixels.front();
-  if (options.screen_height) request.screen.height_pixels = *options.screen_height;
+  ViewRequest request{.scene = options.scene, .folder = options.input, .format = options.format, .limit = {}};
+  if (!options.pixels.empty()) request.limit.pixels = options.pixels.front();
+  if (options.screen_height) request.limit.screen_height = *options.screen_height;
   return run_view(options, request);
 }
 
@@ -155,7 +154,7 @@ class Run : DecimationRun {
   [[nodiscard]] std::vector<std::filesystem::path> stale_files() const;
   void print_summary() const;
 
-  [[nodiscard]] double screen_height() const { return options_.screen_height.value_or(default_screen_height); }
+  [[nodiscard]] double screen_height() const { return options_.screen_height.value_or(PixelLimit().screen_height); }
 
   const Options& options_;
   std::optional<OutputFolder> folder_;
@@ -352,16 +351,9 @@ void Run::note_level(std::size_t index, EndedBy ended_by, DecidedBy decided_by) 
 void Run::measure_deviation() {
   const GatedOutput& coarsest = outputs_.back();
   const TriangleMesh result = coarsest.written_mesh();
-  DeviationSubject subject;
-  subject.original = &original_;
-  subject.result = &result;
-  subject.original_name = "original";
+  const std::span<const GatedOutput> finer(outputs_.begin(), outputs_.end() - 1);
+  DeviationSubject subject = deviation_subject(coarsest, finer, result, report_.levels.back().decided_by);
   subject.result_name = "level " + std::to_string(outputs_.size() - 1);
-  subject.scale = scale_for(tolerances_.back(), coarsest.distance().bounds, diagonal_);
-  subject.measurement = repeated(coarsest, tolerances_.back(), report_.levels.back().decided_by);
-  subject.maxima = maxima_of(coarsest.distance());
-  for (std::size_t i = 0; i + 1 < outputs_.size(); ++i)
-    subject.levels.push_back({outputs_[i].written_mesh(), maxima_of(outputs_[i].distance())});
   try {
     deviation_->measure(subject, {threads(), clock_.stop()});
     report_.deviation = deviation_->report();
@@ -396,7 +388,7 @@ void Run::publish() {
 /// Writes what stands beside the levels, under no name yet.
 void Run::stage_chain(std::deque<StagedText>& documents) {
   if (one_file_) {
-    const PixelError limit{report_.view ? report_.view->pixels : 1, screen_height()};
+    const PixelLimit limit{report_.view ? report_.view->pixels : 1, screen_height()};
     const auto vertices = options_.placement == "subset" ? LevelVertices::Shared : LevelVertices::Apart;
     write_levels(*one_file_, outputs_, original_, attributes_, limit, vertices);
     one_file_->complete();

@@ -223,13 +223,19 @@ DistanceOptions DecimationRun::measurement(double tolerance) const {
   return options;
 }
 
-RepeatedMeasurement DecimationRun::repeated(const GatedOutput& output, double tolerance, DecidedBy how) const {
-  RepeatedMeasurement repeated;
+DeviationSubject DecimationRun::deviation_subject(const GatedOutput& output, std::span<const GatedOutput> finer,
+                                                  const TriangleMesh& result, DecidedBy how) const {
+  const double tolerance = tolerances_.back();
+  const HausdorffDistance& distance = output.distance();
+  DeviationSubject subject(original_, result, tolerance, distance.bounds, distance.a_to_b, &distance.b_to_a);
+  subject.original_name = "original";
+  for (const GatedOutput& level : finer) subject.levels.push_back({level.written_mesh(), maxima_of(level.distance())});
+  RepeatedMeasurement& repeated = subject.measurement;
   repeated.error_bound = output.narrowed_to() ? output.narrowed_to() : measurement(tolerance).error_bound;
   repeated.tolerance = tolerance;
   if (how == DecidedBy::SecondMethod || how == DecidedBy::SmallerLevel)
     repeated.obstacle = "The engine of this page cannot repeat how this was measured: " + explanation(how) + ".";
-  return repeated;
+  return subject;
 }
 
 /// The original as files like `output` would hold it.

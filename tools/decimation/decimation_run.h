@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,7 @@
 #include "common/signals.h"
 #include "decimation/decimation_options.h"
 #include "decimation/texture_tolerance.h"
-#include "deviation/measure_here.h"
+#include "deviation/deviation_outputs.h"
 #include "levels/scene_run.h"
 #include "meshbound/report.h"
 #include "meshbound/simplify.h"
@@ -48,8 +49,10 @@ class DecimationRun {
   void use_threads(int threads) { threads_ = threads; }
   /// Options of the measurement of a file.
   [[nodiscard]] DistanceOptions measurement(double tolerance) const;
-  /// How a browser repeats the measurement of an output.
-  [[nodiscard]] RepeatedMeasurement repeated(const GatedOutput& output, double tolerance, DecidedBy how) const;
+  /// What reports and pictures show of the output with the largest tolerance, which reads as `result` and was decided
+  /// in this way, and of `finer` ones. They must outlive it. The name of the result is left open.
+  [[nodiscard]] DeviationSubject deviation_subject(const GatedOutput& output, std::span<const GatedOutput> finer,
+                                                   const TriangleMesh& result, DecidedBy how) const;
   /// What a decimation may use up of a tolerance: the rest is for the rounding in the frames of nodes.
   [[nodiscard]] double before_rounding(double tolerance) const;
   [[nodiscard]] bool is_out_of_time() const { return interrupted() || clock_.seconds_left() == 0; }

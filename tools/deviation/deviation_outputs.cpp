@@ -10,6 +10,7 @@
 #include "deviation/deviation_image.h"
 #include "deviation/heatmap_file.h"
 #include "meshbound/bvh.h"
+#include "meshbound/mesh_summary.h"
 
 namespace meshbound::tools {
 namespace {
@@ -56,6 +57,17 @@ ProvenMaxima proven_maxima(const Bounds& distance, const OneSidedDistance& origi
   maxima.of_original = std::min(maxima.of_original, distance.upper);
   maxima.of_result = std::min(result_to_original->bounds.upper, distance.upper);
   return maxima;
+}
+
+DeviationSubject::DeviationSubject(const TriangleMesh& original_mesh, const TriangleMesh& result_mesh, double tolerance,
+                                   const Bounds& distance, const OneSidedDistance& original_to_result,
+                                   const OneSidedDistance* result_to_original)
+    : original(&original_mesh),
+      result(&result_mesh),
+      maxima(proven_maxima(distance, original_to_result, result_to_original)),
+      scale(scale_for(tolerance, distance, bounding_box_diagonal(original_mesh))) {
+  const auto worst = worst_spot(distance, original_to_result, result_to_original);
+  worst_is_on_original = !worst || worst->on_a;
 }
 
 /// Both trees and the deviations of the vertices of both meshes.

@@ -42,8 +42,12 @@ struct ShownLevel {
 
 /// The meshes whose deviation is shown; all must outlive the call that gets them.
 struct DeviationSubject {
-  const TriangleMesh* original = nullptr;
-  const TriangleMesh* result = nullptr;
+  /// For these bounds of their distance, of which the last may be null. The scale ends at `tolerance` if that is above
+  /// 0.
+  DeviationSubject(const TriangleMesh& original, const TriangleMesh& result, double tolerance, const Bounds& distance,
+                   const OneSidedDistance& original_to_result, const OneSidedDistance* result_to_original);
+
+  const TriangleMesh *original, *result;
   /// Their texture coordinates, for the picture; null: not shown.
   const CornerAttribute *original_texture = nullptr, *result_texture = nullptr;
   std::string original_name, result_name;  ///< such as "original", "simplified"
@@ -51,7 +55,7 @@ struct DeviationSubject {
   ProvenMaxima maxima;                     ///< of `original` and `result`
   DeviationScale scale;
   RepeatedMeasurement measurement;   ///< of the distance between `original` and `result`
-  bool worst_is_on_original = true;  ///< the mesh that the picture shows in colours: where the worst spot is
+  bool worst_is_on_original = true;  ///< else on `result`; the picture shows that mesh in colours
 };
 
 /// Makes everything that a `DeviationRequest` asks for: `measure` does the work, `stage` writes the files under no

@@ -180,16 +180,10 @@ RepeatedMeasurement repeated(const Answer& answer, const Question& question, con
 bool measure_deviation(DeviationOutputs& outputs, const Answer& answer, const Question& question, const TriangleMesh& a,
                        const TriangleMesh& b, const Arguments& arguments, const RunClock& clock) {
   const ProgressBar bar("measuring deviations", arguments.common.quiet);
-  DeviationSubject subject;
-  subject.original = &a;
-  subject.result = &b;
+  DeviationSubject subject(a, b, question.tolerance.value_or(0), answer.bounds, answer.a_to_b,
+                           answer.b_to_a ? &*answer.b_to_a : nullptr);
   subject.original_name = "A";
   subject.result_name = "B";
-  subject.scale = scale_for(question.tolerance.value_or(0), answer.bounds, bounding_box_diagonal(a));
-  const OneSidedDistance* const back = answer.b_to_a ? &*answer.b_to_a : nullptr;
-  subject.maxima = proven_maxima(answer.bounds, answer.a_to_b, back);
-  const auto worst = worst_spot(answer.bounds, answer.a_to_b, back);
-  subject.worst_is_on_original = !worst || worst->on_a;
   subject.measurement = repeated(answer, question, arguments);
   try {
     outputs.measure(subject, {arguments.common.threads, clock.stop()});

@@ -26,7 +26,7 @@ std::map<std::size_t, double> sizes_of_nodes(const TriangleMesh& mesh, const Mes
 }
 
 /// An error of e units on a model of size d that covers the share s of a screen of h pixels covers s h e / d pixels.
-NodeCoverage coverage(std::size_t node, double size, const std::vector<GatedOutput>& outputs, const PixelError& limit) {
+NodeCoverage coverage(std::size_t node, double size, const std::vector<GatedOutput>& outputs, const PixelLimit& limit) {
   NodeCoverage result{node, {}};
   double error = 0;  // a coarser level may by chance be nearer to the original
   for (std::size_t level = 1; level < outputs.size(); ++level) {
@@ -41,7 +41,7 @@ NodeCoverage coverage(std::size_t node, double size, const std::vector<GatedOutp
 }  // namespace
 
 void write_levels(AtomicFile& file, const std::vector<GatedOutput>& outputs, const TriangleMesh& original,
-                  const MeshAttributes& attributes, const PixelError& limit, LevelVertices vertices) {
+                  const MeshAttributes& attributes, const PixelLimit& limit, LevelVertices vertices) {
   std::vector<FileBytes> files;
   std::vector<GltfLevel> levels;
   for (const GatedOutput& output : outputs) {

@@ -9,6 +9,7 @@
 #include <deque>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "common/length.h"
@@ -117,7 +118,7 @@ void Run::read() {
   report_.seconds.read = clock_.lap();
 }
 
-/// Sets the number of triangles in a tile and the threads by --memory. The limit itself holds since the start of the
+/// Sets the threads by --memory. The limit itself holds since the start of the
 /// process.
 void Run::plan_memory() {
   const TileOptions tiles{options_.tile_triangles};
@@ -329,24 +330,13 @@ void Run::measure_deviation() {
   const ProgressBar bar("measuring deviations", options_.common.quiet);
   const GatedOutput& out = outputs_.back();
   const MeshFile written = out.written_with_attributes();
-  const TriangleMesh& result = written.mesh;
-  const HausdorffDistance& distance = out.distance();
-  DeviationSubject subject;
-  subject.original = &original_;
-  subject.result = &result;
+  std::span<const GatedOutput> finer(outputs_.begin(), outputs_.end() - 1);
+  if (options_.deviation.report.empty()) finer = {};
+  DeviationSubject subject = deviation_subject(out, finer, written.mesh, decided_by_.back());
   const CornerAttribute &before = attributes_.texture_coordinates, &after = written.attributes.texture_coordinates;
   if (!before.empty()) subject.original_texture = &before;
   if (!after.empty()) subject.result_texture = &after;
-  subject.original_name = "original";
   subject.result_name = "simplified";
-  subject.scale = scale_for(tolerances_.back(), distance.bounds, diagonal_);
-  const auto worst = worst_spot(distance.bounds, distance.a_to_b, &distance.b_to_a);
-  subject.worst_is_on_original = !worst || worst->on_a;
-  subject.maxima = maxima_of(distance);
-  subject.measurement = repeated(out, tolerances_.back(), decided_by_.back());
-  if (!options_.deviation.report.empty())
-    for (std::size_t i = 0; i + 1 < outputs_.size(); ++i)
-      subject.levels.push_back({outputs_[i].written_mesh(), maxima_of(outputs_[i].distance())});
   try {
     deviation_->measure(subject, {options_.common.threads, clock_.stop()});
     report_.deviation = deviation_->report();

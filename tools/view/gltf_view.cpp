@@ -13,11 +13,11 @@
 namespace meshbound::tools {
 namespace {
 
-ViewCamera camera_of(const GltfScene::Camera& placed, const GltfScreen& screen) {
+ViewCamera camera_of(const GltfScene::Camera& placed, const PixelLimit& limit) {
   ViewCamera camera;
   camera.position = placed.placement.translation;
   camera.direction = -placed.placement.linear.col(2);
-  camera.screen = {screen.height_pixels, placed.vertical_field_of_view};
+  camera.screen = {limit.screen_height, placed.vertical_field_of_view};
   if (placed.aspect_ratio) camera.aspect_ratio = *placed.aspect_ratio;
   return camera;
 }
@@ -38,7 +38,7 @@ bool is_gltf(const std::string& path) {
   return format == FileFormat::Glb || format == FileFormat::Gltf;
 }
 
-GltfView read_gltf_view(const std::string& path, const GltfScreen& screen, const StopToken& stop) {
+GltfView read_gltf_view(const std::string& path, const PixelLimit& limit, const StopToken& stop) {
   const FileBytes file(path, stop);
   GltfScene read = parse_gltf_scene(path, file.bytes(), stop);
   if (read.instances.empty()) throw InvalidInput(path + ": the default scene shows no triangles");
@@ -47,7 +47,7 @@ GltfView read_gltf_view(const std::string& path, const GltfScreen& screen, const
                        ": the default scene has no perspective camera; say in a scene of JSON from where it is "
                        "seen (see docs/scenes.md)");
   GltfView view;
-  view.scene.pixels = screen.pixels;
+  view.scene.pixels = limit.pixels;
   view.orthographic_cameras = read.orthographic_cameras;
   const std::string checksum = sha256(file.bytes(), [&] { end_if_stopped(stop, path, "read"); });
   for (GltfScene::Mesh& mesh : read.meshes) {
@@ -61,7 +61,7 @@ GltfView read_gltf_view(const std::string& path, const GltfScreen& screen, const
     view.node_of_instance.push_back(instance.node);
   }
   for (const GltfScene::Camera& camera : read.cameras) {
-    view.scene.cameras.push_back(camera_of(camera, screen));
+    view.scene.cameras.push_back(camera_of(camera, limit));
     view.node_of_camera.push_back(camera.node);
   }
   return view;

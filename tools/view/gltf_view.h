@@ -4,18 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "lod/pixel_limit.h"
 #include "meshbound/report.h"
 #include "meshbound/stop_token.h"
 #include "meshbound/triangle_mesh.h"
 #include "view/scene_file.h"
 
 namespace meshbound::tools {
-
-/// What a glTF scene is seen on, which its file does not say.
-struct GltfScreen {
-  double pixels = 1;            ///< that the error of an instance may cover
-  double height_pixels = 1080;  ///< of the screen
-};
 
 /// The default scene of a glTF file for `view_levels`: its meshes are the models, the nodes that show them the
 /// instances, and the nodes with perspective cameras the cameras.
@@ -30,7 +25,8 @@ struct GltfView {
 
 [[nodiscard]] bool is_gltf(const std::string& path);  ///< by its extension
 
-/// Throws as `parse_gltf_scene`, and `InvalidInput` where there is no triangle or no perspective camera.
-[[nodiscard]] GltfView read_gltf_view(const std::string& path, const GltfScreen& screen, const StopToken& stop);
+/// `limit` is what the file does not say: the error that an instance may cover. Throws as `parse_gltf_scene`, and
+/// `InvalidInput` where there is no triangle or no perspective camera.
+[[nodiscard]] GltfView read_gltf_view(const std::string& path, const PixelLimit& limit, const StopToken& stop);
 
 }  // namespace meshbound::tools

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "lod/pixel_limit.h"
 #include "meshbound/error.h"
 #include "meshbound/pose.h"
 
@@ -113,7 +114,7 @@ ViewCamera camera_of(const Place& place, const ViewCamera& screen) {
 ViewCamera screen_of(const Place& place) {
   place.object({"height", "fov", "aspect"});
   ViewCamera camera;
-  camera.screen.vertical_field_of_view = 60.0 / 180 * std::numbers::pi;
+  camera.screen.vertical_field_of_view = default_fov / 180 * std::numbers::pi;
   if (place.has("height")) camera.screen.height_pixels = place.at("height").positive();
   if (place.has("fov")) {
     if (place.at("fov").positive() >= 180) place.at("fov").refuse("expected degrees below 180");

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "lod/pixel_limit.h"
 #include "meshbound/view_levels.h"
 
 namespace meshbound::tools {
@@ -13,7 +14,7 @@ struct SceneFile {
   std::vector<ViewInstance> instances;
   std::vector<std::string> groups;  ///< names, by the group numbers of the instances
   std::vector<ViewCamera> cameras;
-  double pixels = 1;
+  double pixels = PixelLimit().pixels;
 };
 
 /// Reads and checks a scene. Throws `IoError` when it cannot be read, and `InvalidInput` with the place in it, such as

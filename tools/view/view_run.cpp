@@ -66,7 +66,7 @@ class ViewRun {
   }
 
   void read_gltf() {
-    gltf_ = read_gltf_view(request_.scene, request_.screen, clock_.stop_of_reading());
+    gltf_ = read_gltf_view(request_.scene, request_.limit, clock_.stop_of_reading());
     scene_ = std::move(gltf_->scene);
     meshes_ = std::move(gltf_->meshes);
     models_ = std::move(gltf_->reports);

@@ -11,7 +11,7 @@ namespace meshbound::tools {
 struct ViewRequest {
   std::string scene;           ///< a file: JSON (tools/schema/scene-1.schema.json) or glTF
   std::string folder, format;  ///< of the levels
-  GltfScreen screen;           ///< of a glTF scene
+  PixelLimit limit;            ///< of a glTF scene
 };
 
 /// Makes the levels that the cameras of a scene need, each with a proven distance to its model, writes them to the
