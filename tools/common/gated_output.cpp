@@ -68,8 +68,8 @@ Precision GatedOutput::precision() const {
 
 void GatedOutput::write(const TriangleMesh& mesh, std::span<const Edge> lines, const MeshAttributes& attributes) {
   restart();
-  lines_ = line_mesh(mesh, lines);
-  if (precision() == Precision::Single && !attributes.document) round_to_floats(lines_);
+  found_.lines = line_mesh(mesh, lines);
+  if (precision() == Precision::Single && !attributes.document) round_to_floats(found_.lines);
   if (workers_ != nullptr)
     workers_->write(*file_, path_, mesh, options_);
   else
@@ -89,18 +89,18 @@ MeshFile GatedOutput::written_file(const StopToken& stop, bool with_attributes) 
 std::string GatedOutput::checksum() const { return sha256(FileBytes(file_->staged(), only_flag()).bytes()); }
 
 const HausdorffDistance& GatedOutput::measure(MeshWithTree& original, const DistanceOptions& options) {
-  verdict_ = Verdict::Undecided;
-  texture_.reset();
-  normals_.reset();
-  narrowed_to_.reset();
+  found_.verdict = Verdict::Undecided;
+  found_.texture.reset();
+  found_.normals.reset();
+  found_.narrowed_to.reset();
   const MeshFile file = written_file(stop_, original_texture_.has_value());
   const TriangleMesh& mesh = file.mesh;
-  summary_ = summarise(mesh);
-  distance_ = distance_between(original, mesh, options, stop_);
-  verdict_ = verdict_of(distance_.bounds, *options.tolerance);
-  if (original_lines_ != nullptr && verdict_ == Verdict::Within) measure_lines(mesh, options);
-  if (verdict_ == Verdict::Within) look_at(file, options.threads);
-  return distance_;
+  found_.summary = summarise(mesh);
+  found_.distance = distance_between(original, mesh, options, stop_);
+  found_.verdict = verdict_of(found_.distance.bounds, *options.tolerance);
+  if (original_lines_ != nullptr && found_.verdict == Verdict::Within) measure_lines(mesh, options);
+  if (found_.verdict == Verdict::Within) look_at(file, options.threads);
+  return found_.distance;
 }
 
 bool GatedOutput::narrow(MeshWithTree& original, const DistanceOptions& options) {
@@ -108,8 +108,8 @@ bool GatedOutput::narrow(MeshWithTree& original, const DistanceOptions& options)
     HausdorffDistance narrower = distance_between(original, written_file(stop_, false).mesh, options, stop_);
     for (const OneSidedDistance* direction : {&narrower.a_to_b, &narrower.b_to_a})
       if (direction->outcome != Outcome::Converged) return false;
-    distance_ = std::move(narrower);
-    narrowed_to_ = options.error_bound;
+    found_.distance = std::move(narrower);
+    found_.narrowed_to = options.error_bound;
     return true;
   } catch (const Stopped&) {
     return false;
@@ -117,18 +117,16 @@ bool GatedOutput::narrow(MeshWithTree& original, const DistanceOptions& options)
 }
 
 void GatedOutput::look_at(const MeshFile& level, int threads) {
-  texture_.reset();
-  normals_.reset();
+  found_.texture.reset();
+  found_.normals.reset();
   if (original_texture_) measure_texture(level, threads);
-  if (original_normals_) {
-    const bool is_known = normals_looked_at_ && looked_at_.vertices == level.mesh.vertices &&
-                          looked_at_.triangles == level.mesh.triangles;
-    if (!is_known)
-      normals_looked_at_ =
-          normal_comparison_.measure(*original_normals_->mesh, level.mesh, {original_normals_->tolerance, threads});
-    looked_at_ = level.mesh;
-    normals_ = normals_looked_at_;
-  }
+  if (!original_normals_) return;
+  const bool is_known = looked_at_ && looked_at_->mesh.vertices == level.mesh.vertices &&
+                        looked_at_->mesh.triangles == level.mesh.triangles;
+  if (!is_known)
+    looked_at_ = LookedAt{level.mesh, normal_comparison_.measure(*original_normals_->mesh, level.mesh,
+                                                                 {original_normals_->tolerance, threads})};
+  found_.normals = looked_at_->normals;
 }
 
 void GatedOutput::measure_texture(const MeshFile& level, int threads) {
@@ -138,25 +136,27 @@ void GatedOutput::measure_texture(const MeshFile& level, int threads) {
   texture.error_bound = original_texture_->error_bound;
   texture.threads = threads;
   texture.stop = stop_;
-  texture_ = texture_comparison_.measure(std::move(meshes), texture);
+  found_.texture = texture_comparison_.measure(std::move(meshes), texture);
 }
 
-bool GatedOutput::are_normals_within() const { return !original_normals_ || (normals_ && normals_->exceeding.empty()); }
+bool GatedOutput::are_normals_within() const {
+  return !original_normals_ || (found_.normals && found_.normals->exceeding.empty());
+}
 
 bool GatedOutput::is_texture_within() const {
   if (!original_texture_) return true;
-  return texture_ && verdict_of(texture_->bounds, original_texture_->tolerance) == Verdict::Within;
+  return found_.texture && verdict_of(found_.texture->bounds, original_texture_->tolerance) == Verdict::Within;
 }
 
 std::vector<Edge> GatedOutput::lines_of(const TriangleMesh& written) const {
   const std::vector<Vec3> positions = positions_of(written);
   const PositionTable table(positions);
   const auto vertex = [&](std::uint32_t v) {
-    const Eigen::Vector3d& p = lines_.vertices[v];
+    const Eigen::Vector3d& p = found_.lines.vertices[v];
     return table.find({p.x(), p.y(), p.z()});
   };
   std::vector<Edge> edges;
-  for (const Triangle& line : lines_.triangles) edges.push_back({vertex(line[0]), vertex(line[1])});
+  for (const Triangle& line : found_.lines.triangles) edges.push_back({vertex(line[0]), vertex(line[1])});
   return edges;
 }
 
@@ -166,7 +166,7 @@ void GatedOutput::measure_lines(const TriangleMesh& written, DistanceOptions opt
   };
   std::vector<Eigen::Vector3d> points = written.vertices;
   std::sort(points.begin(), points.end(), before);
-  for (Eigen::Vector3d& p : lines_.vertices) {
+  for (Eigen::Vector3d& p : found_.lines.vertices) {
     if (std::binary_search(points.begin(), points.end(), p, before)) continue;
     const auto written_as = nearest_of(points, p, original_lines_->rounding);
     if (!written_as)
@@ -175,9 +175,9 @@ void GatedOutput::measure_lines(const TriangleMesh& written, DistanceOptions opt
   }
   options.tolerance = std::min(original_lines_->tolerance, *options.tolerance);
   options.budget.seconds = std::min(options.budget.seconds, stop_.seconds_left());
-  const Bvh tree(lines_, BvhOptions{options.threads, stop_});
-  line_distance_ = hausdorff_distance(original_lines_->tree, tree, options);
-  verdict_ = verdict_of(line_distance_->bounds, *options.tolerance);
+  const Bvh tree(found_.lines, BvhOptions{options.threads, stop_});
+  found_.line_distance = hausdorff_distance(original_lines_->tree, tree, options);
+  found_.verdict = verdict_of(found_.line_distance->bounds, *options.tolerance);
 }
 
 void GatedOutput::fall_back(const GatedOutput* smaller, MeshWithTree& original, std::span<const Edge> lines,
@@ -192,17 +192,11 @@ void GatedOutput::fall_back(const GatedOutput* smaller, MeshWithTree& original, 
   restart();
   file_->write(FileBytes(smaller->file_->staged(), stop_).bytes());
   file_->complete();
-  verdict_ = smaller->verdict_;
-  distance_ = smaller->distance_;
-  lines_ = smaller->lines_;
-  line_distance_ = smaller->line_distance_;
-  texture_ = smaller->texture_;
-  normals_ = smaller->normals_;
-  summary_ = smaller->summary_;
+  found_ = smaller->found_;
 }
 
 void GatedOutput::publish() {
-  if (verdict_ != Verdict::Within || !keeps_appearance())
+  if (found_.verdict != Verdict::Within || !keeps_appearance())
     throw Error(path_.string() + " is not proven to be within the tolerance: not written");
   file_->commit();
 }

@@ -84,29 +84,29 @@ class GatedOutput {
   /// required; the verdict is on both. `options.tolerance` must be set. The tree of the original is not built if the
   /// file holds the original.
   const HausdorffDistance& measure(MeshWithTree& original, const DistanceOptions& options);
-  [[nodiscard]] Verdict verdict() const { return verdict_; }
+  [[nodiscard]] Verdict verdict() const { return found_.verdict; }
   /// Measures the distance again, to the `error_bound` of `options`. False, and nothing is changed, where that is not
   /// reached in time.
   [[nodiscard]] bool narrow(MeshWithTree& original, const DistanceOptions& options);
   /// What `narrow` has measured the distance to, model units; absent: it is that of `measure`.
-  [[nodiscard]] std::optional<double> narrowed_to() const { return narrowed_to_; }
+  [[nodiscard]] std::optional<double> narrowed_to() const { return found_.narrowed_to; }
   /// Measures texture and normals, as far as they are required, of a mesh that is not written yet. Where the file reads
   /// like it, `measure` finds that known.
   void look_at(const MeshFile& level, int threads);
   /// The texture deviation of what was measured or looked at last: there if it is required and, after `measure`, the
   /// verdict is Within. `is_texture_within` is false if it is required but was not measured.
-  [[nodiscard]] const std::optional<TextureDeviation>& texture_deviation() const { return texture_; }
+  [[nodiscard]] const std::optional<TextureDeviation>& texture_deviation() const { return found_.texture; }
   [[nodiscard]] bool is_texture_within() const;
   /// The deviation of normals, measured and judged like that of the texture.
-  [[nodiscard]] const std::optional<NormalDeviation>& normal_deviation() const { return normals_; }
+  [[nodiscard]] const std::optional<NormalDeviation>& normal_deviation() const { return found_.normals; }
   [[nodiscard]] bool are_normals_within() const;
   [[nodiscard]] bool keeps_appearance() const { return is_texture_within() && are_normals_within(); }
-  [[nodiscard]] const HausdorffDistance& distance() const { return distance_; }
-  [[nodiscard]] const std::optional<HausdorffDistance>& line_distance() const { return line_distance_; }
-  [[nodiscard]] std::size_t line_edges() const { return lines_.triangles.size(); }
+  [[nodiscard]] const HausdorffDistance& distance() const { return found_.distance; }
+  [[nodiscard]] const std::optional<HausdorffDistance>& line_distance() const { return found_.line_distance; }
+  [[nodiscard]] std::size_t line_edges() const { return found_.lines.triangles.size(); }
   /// The measured lines by vertices of `written_mesh()`.
   [[nodiscard]] std::vector<Edge> lines_of(const TriangleMesh& written) const;
-  [[nodiscard]] const MeshSummary& summary() const { return summary_; }  ///< of the file as it reads
+  [[nodiscard]] const MeshSummary& summary() const { return found_.summary; }  ///< of the file as it reads
   /// The file that holds what was written, until `publish`.
   [[nodiscard]] const std::filesystem::path& staged() const { return file_->staged(); }
   [[nodiscard]] std::string checksum() const;  ///< SHA-256 of the file; before `publish`
@@ -124,6 +124,18 @@ class GatedOutput {
   void copy_rejected_to(const std::filesystem::path& path) const;
 
  private:
+  /// What is known of a file that was written.
+  struct Found {
+    Verdict verdict = Verdict::Undecided;
+    HausdorffDistance distance;
+    std::optional<double> narrowed_to;
+    TriangleMesh lines;
+    std::optional<HausdorffDistance> line_distance;
+    std::optional<TextureDeviation> texture;
+    std::optional<NormalDeviation> normals;
+    MeshSummary summary;
+  };
+
   void restart();
   void measure_lines(const TriangleMesh& written, DistanceOptions options);
   void measure_texture(const MeshFile& level, int threads);
@@ -134,22 +146,21 @@ class GatedOutput {
   StopToken stop_;
   WriteOptions options_;
   std::unique_ptr<AtomicFile> file_;
-  Verdict verdict_ = Verdict::Undecided;
-  HausdorffDistance distance_;
-  std::optional<double> narrowed_to_;
+  TileWorkers* workers_ = nullptr;
+  // What is required beside the tolerance of the surface.
   const OriginalLines* original_lines_ = nullptr;
   std::optional<OriginalTexture> original_texture_;
-  TextureComparison texture_comparison_;
-  std::optional<TextureDeviation> texture_;
   std::optional<OriginalNormals> original_normals_;
+
+  TextureComparison texture_comparison_;
   NormalComparison normal_comparison_;
-  std::optional<NormalDeviation> normals_;
-  TriangleMesh looked_at_;  ///< whose deviation of normals is known
-  std::optional<NormalDeviation> normals_looked_at_;
-  TriangleMesh lines_;  ///< of what was written
-  std::optional<HausdorffDistance> line_distance_;
-  MeshSummary summary_;
-  TileWorkers* workers_ = nullptr;
+  /// A mesh whose normals were measured, so that they are known where the file reads like it.
+  struct LookedAt {
+    TriangleMesh mesh;
+    NormalDeviation normals;
+  };
+  std::optional<LookedAt> looked_at_;
+  Found found_;
 };
 
 }  // namespace meshbound::tools
