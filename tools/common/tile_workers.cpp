@@ -21,7 +21,7 @@ StoreSpace space_of(const TileSetting& setting) {
   return {folder != nullptr && *folder != '\0' ? folder : "/var/tmp"};
 }
 
-TileWorkers::TileWorkers(const TileSetting& setting) {
+TileWorkers::TileWorkers(const TileSetting& setting) : setting_(setting) {
   if (!setting.scratch.empty()) scratch_folder_.emplace(setting.scratch);
   space_ = space_of(setting);
 }
@@ -31,6 +31,14 @@ void TileWorkers::write(AtomicFile& file, const std::filesystem::path& path, con
   write_mesh(file, path, mesh, options);
 }
 
+std::string TileWorkers::open_tile_scratch(const StoredMesh& original, const SimplifyOptions& options,
+                                           ScratchOwner owner) {
+  if (setting_.scratch.empty()) return "";
+  const std::string key = decimation_key(original, options, setting_.driver + " " + setting_.cost, setting_.tiles);
+  tile_scratch_.emplace(setting_.scratch, key, setting_.resumes, owner);
+  return key;
+}
+
 MeshFile LocalTileWorkers::read(const std::string& path, const StopToken& stop, MeshInSpace& into,
                                 const FileWindow::Reader& reader) {
   return read_mesh_into(path, stop, into, reader);
@@ -38,10 +46,7 @@ MeshFile LocalTileWorkers::read(const std::string& path, const StopToken& stop, 
 
 SimplifyResult LocalTileWorkers::decimate(const StoredMesh& original, const SimplifyOptions& options) {
   ThreadRunner threads(options.threads);
-  if (!setting_.scratch.empty())
-    tile_scratch_.emplace(setting_.scratch,
-                          decimation_key(original, options, setting_.driver + " " + setting_.cost, setting_.tiles),
-                          setting_.resumes, ScratchOwner::ThisProcess);
+  open_tile_scratch(original, options, ScratchOwner::ThisProcess);
   auto [result, reused] = decimate_in_tiles(original, options, setting_.tiles, threads, tile_scratch_);
   reused_tiles_ += reused;
   return std::move(result);

@@ -81,14 +81,18 @@ class TileWorkers {
   StoreSpace space_;
 
  protected:
-  std::size_t reused_tiles_ = 0;
+  /// Opens the scratch folder of the tiles of a decimation, if the setting names one, and returns its key; else empty.
+  std::string open_tile_scratch(const StoredMesh& original, const SimplifyOptions& options, ScratchOwner owner);
+
+  TileSetting setting_;
   std::optional<TileScratch> tile_scratch_;  ///< of the last decimation; in the folder above, so it goes before that
+  std::size_t reused_tiles_ = 0;
 };
 
 /// The threads of this process.
 class LocalTileWorkers : public TileWorkers {
  public:
-  explicit LocalTileWorkers(const TileSetting& setting) : TileWorkers(setting), setting_(setting) {}
+  using TileWorkers::TileWorkers;
   [[nodiscard]] MeshFile read(const std::string& path, const StopToken& stop, MeshInSpace& into,
                               const FileWindow::Reader& reader) override;
   [[nodiscard]] SimplifyResult decimate(const StoredMesh& original, const SimplifyOptions& options) override;
@@ -99,9 +103,6 @@ class LocalTileWorkers : public TileWorkers {
   [[nodiscard]] std::optional<Certificate> certify(const StoredMesh& original, const StoredMesh& simplified,
                                                    double tolerance, const CertificateOptions& options) override;
   [[nodiscard]] std::optional<CommunicationReport> communication() override { return std::nullopt; }
-
- private:
-  TileSetting setting_;
 };
 
 }  // namespace meshbound::tools

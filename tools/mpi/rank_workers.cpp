@@ -290,8 +290,7 @@ class Follower {
 
 }  // namespace
 
-RankWorkers::RankWorkers(Communicator& ranks, const TileSetting& setting)
-    : TileWorkers(setting), ranks_(ranks), setting_(setting) {}
+RankWorkers::RankWorkers(Communicator& ranks, const TileSetting& setting) : TileWorkers(setting), ranks_(ranks) {}
 
 void RankWorkers::limit_memory(std::uint64_t bytes) {
   CompactWriter message = command(Command::LimitMemory);
@@ -333,14 +332,9 @@ SimplifyResult RankWorkers::decimate(const StoredMesh& original, const SimplifyO
   message.text(setting_.cost);
   message.number(setting_.tiles.max_triangles);
   message.number(number_of(original));
-  const std::string key =
-      setting_.scratch.empty()
-          ? ""
-          : decimation_key(original, options, setting_.driver + " " + setting_.cost, setting_.tiles);
-  const ScratchOwner owner = ranks_.size() > 1 ? ScratchOwner::FirstRank : ScratchOwner::ThisProcess;
-  if (!key.empty()) tile_scratch_.emplace(setting_.scratch, key, setting_.resumes, owner);
   message.text(setting_.scratch);
-  message.text(key);
+  message.text(
+      open_tile_scratch(original, options, ranks_.size() > 1 ? ScratchOwner::FirstRank : ScratchOwner::ThisProcess));
   tell(ranks_, message);
   return together(ranks_, [&] {
     auto [result, reused] = decimate_together(ranks_, original, options, setting_.tiles, tile_scratch_);

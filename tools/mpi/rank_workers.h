@@ -40,7 +40,6 @@ class RankWorkers : public TileWorkers {
   void tell_measurement(Command which, const StoredMesh& a, const StoredMesh& b, const DistanceOptions& options);
 
   mpi::Communicator& ranks_;
-  TileSetting setting_;
   std::map<const StoredMesh*, std::uint64_t> kept_;  ///< number that the others know the mesh by
   std::uint64_t shared_ = 0;                         ///< meshes that the others have
   std::string checksum_of_result_;                   ///< of the last decimation, which the others have too
