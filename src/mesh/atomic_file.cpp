@@ -46,7 +46,7 @@ AtomicFile::AtomicFile(std::filesystem::path path, Stream stream, const StopToke
 
 AtomicFile::AtomicFile(std::filesystem::path path, const SharedFile& shared) : path_(std::move(path)) {
   make_buffer();
-  fd_ = open_shared_file(shared, O_WRONLY);
+  fd_ = open_shared_file(shared, O_WRONLY).release();
   if (fd_ < 0) fail(errno);
 }
 
@@ -67,7 +67,7 @@ void AtomicFile::open() {
 
 void AtomicFile::open_staged(const std::filesystem::path& folder) {
   const mode_t mode = target_.is_stream ? 0600 : 0666;
-  fd_ = open_unnamed_file(folder, mode);
+  fd_ = open_unnamed_file(folder, mode).release();
   if (fd_ >= 0) {
     staged_ = path_of_descriptor(::getpid(), fd_);
     return;
@@ -153,23 +153,17 @@ void AtomicFile::name_staged() {
 
 /// The staged file stays until the destructor removes it.
 void AtomicFile::send_staged() {
-  const int staged = ::open(staged_.c_str(), O_RDONLY | O_CLOEXEC);
-  if (staged < 0) fail(errno);
+  const Descriptor staged(::open(staged_.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!staged.is_open()) fail(errno);
   if (fd_ >= 0) ::close(std::exchange(fd_, -1));
   make_buffer();
-  try {
-    open_stream();
-    ssize_t count = 0;
-    while ((count = ::read(staged, buffer_.get(), buffer_size)) != 0) {
-      if (count > 0) write_through(buffer_.get(), static_cast<std::size_t>(count));
-      if (count < 0 && errno != EINTR) fail(errno);
-    }
-    if (::close(std::exchange(fd_, -1)) != 0) fail(errno);
-  } catch (...) {
-    ::close(staged);
-    throw;
+  open_stream();
+  ssize_t count = 0;
+  while ((count = ::read(staged.number(), buffer_.get(), buffer_size)) != 0) {
+    if (count > 0) write_through(buffer_.get(), static_cast<std::size_t>(count));
+    if (count < 0 && errno != EINTR) fail(errno);
   }
-  ::close(staged);
+  if (::close(std::exchange(fd_, -1)) != 0) fail(errno);
 }
 
 void AtomicFile::flush() { write_through(buffer_.get(), std::exchange(filled_, 0)); }

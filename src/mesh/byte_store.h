@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "mesh/descriptor.h"
 #include "mesh/unnamed_file.h"
 
 namespace meshbound {
@@ -29,9 +30,6 @@ class ByteStore {
   /// The bytes of a store of another process, which may go meanwhile; what is appended stands in the same file behind
   /// `shared.size`. Throws `IoError` where the file cannot be opened.
   ByteStore(const StoreSpace& space, const SharedBytes& shared);
-  ~ByteStore();
-  ByteStore(ByteStore&& other) noexcept;
-  ByteStore& operator=(ByteStore&& other) noexcept;
 
   /// Throws `IoError`, such as for a full disk.
   void append(const void* bytes, std::size_t size);
@@ -47,7 +45,7 @@ class ByteStore {
   [[noreturn]] void fail(const char* action, int error) const;
 
   StoreSpace space_;
-  int fd_ = -1;                                  ///< of the file, if there is one
+  Descriptor file_;                              ///< if there is one
   std::vector<std::unique_ptr<char[]>> chunks_;  ///< what has been written where there is no file
   std::unique_ptr<char[]> last_;                 ///< the chunk that is being filled
   std::size_t filled_ = 0;                       ///< bytes of it

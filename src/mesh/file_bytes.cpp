@@ -27,26 +27,20 @@ constexpr std::size_t max_read = std::size_t{1} << 24;  // bytes between two loo
 
 RegularFile::RegularFile(std::filesystem::path path, const StopToken& stop) : path_(std::move(path)), stop_(stop) {
   // O_NONBLOCK: opening a fifo must not wait for somebody to write into it.
-  fd_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (fd_ < 0) refuse_to_read(path_, std::strerror(errno));
-  try {
-    struct stat status {};
-    if (::fstat(fd_, &status) != 0) refuse_to_read(path_, std::strerror(errno));
-    if (S_ISDIR(status.st_mode)) refuse_to_read(path_, "it is a folder, not a file");
-    if (!S_ISREG(status.st_mode)) refuse_to_read(path_, "it is not a regular file; copy the data into one first");
-    size_ = static_cast<std::size_t>(status.st_size);
-  } catch (...) {
-    ::close(fd_);
-    throw;
-  }
+  descriptor_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  struct stat status {};
+  if (!descriptor_.is_open() || ::fstat(descriptor_.number(), &status) != 0)
+    refuse_to_read(path_, std::strerror(errno));
+  if (S_ISDIR(status.st_mode)) refuse_to_read(path_, "it is a folder, not a file");
+  if (!S_ISREG(status.st_mode)) refuse_to_read(path_, "it is not a regular file; copy the data into one first");
+  size_ = static_cast<std::size_t>(status.st_size);
 }
-
-RegularFile::~RegularFile() { ::close(fd_); }
 
 void RegularFile::read(std::size_t first, char* to, std::size_t size) const {
   for (std::size_t done = 0; done < size;) {
     end_if_stopped(stop_, path_, "read");
-    const ssize_t count = ::pread(fd_, to + done, std::min(size - done, max_read), static_cast<off_t>(first + done));
+    const ssize_t count =
+        ::pread(descriptor_.number(), to + done, std::min(size - done, max_read), static_cast<off_t>(first + done));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) refuse_to_read(path_, std::strerror(errno));
     if (count == 0) refuse_to_read(path_, "it became shorter while it was read; wait until it is complete");

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "mesh/descriptor.h"
 #include "meshbound/stop_token.h"
 
 namespace meshbound {
@@ -17,9 +18,6 @@ class RegularFile {
  public:
   /// Throws `IoError` when `path` is missing, unreadable or anything but a regular file. Never blocks.
   RegularFile(std::filesystem::path path, const StopToken& stop);
-  ~RegularFile();
-  RegularFile(const RegularFile&) = delete;
-  RegularFile& operator=(const RegularFile&) = delete;
 
   [[nodiscard]] std::size_t size() const { return size_; }
   /// Throws `IoError` where this fails or the file is shorter by now; `Interrupted` or `Stopped` as `stop` says.
@@ -28,7 +26,7 @@ class RegularFile {
  private:
   std::filesystem::path path_;
   StopToken stop_;
-  int fd_ = -1;
+  Descriptor descriptor_;
   std::size_t size_ = 0;
 };
 

@@ -7,17 +7,17 @@
 
 #include <cerrno>
 #include <string>
+#include <utility>
 
 namespace meshbound {
 
 bool internal::has_unnamed_files = true;
 
-int open_unnamed_file(const std::filesystem::path& folder, mode_t mode) {
-  if (!internal::has_unnamed_files) return -1;
-  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode);
-  if (descriptor < 0 || ::access(path_of_descriptor(::getpid(), descriptor).c_str(), F_OK) == 0) return descriptor;
-  ::close(descriptor);
-  return -1;
+Descriptor open_unnamed_file(const std::filesystem::path& folder, mode_t mode) {
+  if (!internal::has_unnamed_files) return {};
+  Descriptor file(::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode));
+  const bool is_found = file.is_open() && ::access(path_of_descriptor(::getpid(), file.number()).c_str(), F_OK) == 0;
+  return is_found ? std::move(file) : Descriptor();
 }
 
 std::filesystem::path path_of_descriptor(pid_t process, int descriptor) {
@@ -30,15 +30,15 @@ SharedFile shared_file(int descriptor) {
   return {::getpid(), descriptor, status.st_dev, status.st_ino};
 }
 
-int open_shared_file(const SharedFile& file, int flags) {
+Descriptor open_shared_file(const SharedFile& file, int flags) {
   const std::filesystem::path path = path_of_descriptor(static_cast<pid_t>(file.process), file.descriptor);
-  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0) return -1;
-  const SharedFile opened = shared_file(descriptor);
+  Descriptor descriptor(::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK));
+  if (!descriptor.is_open()) return {};
+  const SharedFile opened = shared_file(descriptor.number());
   if (opened.device == file.device && opened.inode == file.inode) return descriptor;
-  ::close(descriptor);
+  descriptor = {};
   errno = ENOENT;
-  return -1;
+  return {};
 }
 
 bool give_name(int descriptor, const std::filesystem::path& name) {

@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "mesh/descriptor.h"
+
 namespace meshbound {
 
 /// Makes a file in `folder` that has no name there, so that no ending leaves it behind, not even a kill. Returns its
-/// descriptor, for reading and writing; -1 where the file system knows no such files, as over a network, or where
+/// descriptor, for reading and writing; none where the file system knows no such files, as over a network, or where
 /// `path_of_descriptor` leads nowhere.
-[[nodiscard]] int open_unnamed_file(const std::filesystem::path& folder, mode_t mode);
+[[nodiscard]] Descriptor open_unnamed_file(const std::filesystem::path& folder, mode_t mode);
 
 /// A path by which this process, and others of the same user on this machine, open the file of a descriptor of
 /// `process`.
@@ -27,8 +29,8 @@ struct SharedFile {
 [[nodiscard]] SharedFile shared_file(int descriptor);
 
 /// Opens the file of another process with these flags of `open`; the other process may close it meanwhile. Returns the
-/// descriptor; -1 where `errno` says why not.
-[[nodiscard]] int open_shared_file(const SharedFile& file, int flags);
+/// descriptor; none where `errno` says why not.
+[[nodiscard]] Descriptor open_shared_file(const SharedFile& file, int flags);
 
 /// Gives the file of `open_unnamed_file` a name, which must be free. Sets `errno` where it returns false.
 [[nodiscard]] bool give_name(int descriptor, const std::filesystem::path& name);

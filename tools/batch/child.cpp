@@ -61,20 +61,15 @@ Child::Child(const std::vector<std::string>& command, std::uint64_t memory_limit
   argv.push_back(nullptr);
   ::signal(SIGCHLD, SIG_DFL);  // ignored, as whoever started this process may have it, exit codes are lost
   const pid_t parent = ::getpid();
-  process_ = out_ >= 0 && err_ >= 0 ? ::fork() : -1;
-  if (process_ == 0) become(argv.data(), memory_limit, out_, err_, parent);
-  if (process_ < 0) {
-    const std::string why = std::strerror(errno);
-    ::close(out_);
-    ::close(err_);
-    throw IoError("cannot start " + command[0] + ": " + why);
-  }
+  process_ = out_.is_open() && err_.is_open() ? ::fork() : -1;
+  if (process_ == 0) become(argv.data(), memory_limit, out_.number(), err_.number(), parent);
+  if (process_ < 0) throw IoError("cannot start " + command[0] + ": " + std::strerror(errno));
 }
 
 Child::Child(Child&& other) noexcept
     : process_(std::exchange(other.process_, -1)),
-      out_(std::exchange(other.out_, -1)),
-      err_(std::exchange(other.err_, -1)),
+      out_(std::move(other.out_)),
+      err_(std::move(other.err_)),
       start_(other.start_),
       deadline_(other.deadline_),
       was_late_(other.was_late_) {}
@@ -90,12 +85,9 @@ Child& Child::operator=(Child&& other) noexcept {
 }
 
 Child::~Child() {
-  if (process_ > 0) {
-    ::kill(process_, SIGTERM);
-    while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) continue;
-  }
-  if (out_ >= 0) ::close(out_);
-  if (err_ >= 0) ::close(err_);
+  if (process_ <= 0) return;
+  ::kill(process_, SIGTERM);
+  while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) continue;
 }
 
 std::optional<ChildEnd> Child::poll() {
@@ -119,8 +111,8 @@ std::optional<ChildEnd> Child::poll() {
   else
     end.signal = WTERMSIG(status);
   end.was_late = was_late_;
-  end.out = content_of(out_);
-  end.err = content_of(err_);
+  end.out = content_of(out_.number());
+  end.err = content_of(err_.number());
   end.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
   end.cpu_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
   constexpr std::uint64_t kibibyte = 1024;

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "mesh/descriptor.h"
+
 namespace meshbound::tools {
 
 /// How a child process has ended.
@@ -39,7 +41,7 @@ class Child {
   using Clock = std::chrono::steady_clock;
 
   pid_t process_ = -1;
-  int out_ = -1, err_ = -1;  ///< files in memory
+  Descriptor out_, err_;  ///< files in memory
   Clock::time_point start_, deadline_;
   bool was_late_ = false;
 };

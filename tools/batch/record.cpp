@@ -107,18 +107,14 @@ std::map<std::string, AssetRecord> newest_records(RecordHistory history) {
 
 RecordFile::RecordFile(fs::path path)
     : path_(std::move(path)), file_(::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666)) {
-  if (file_ < 0) throw IoError("cannot write to " + path_.string() + ": " + std::strerror(errno));
-  if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    ::close(file_);
+  if (!file_.is_open()) throw IoError("cannot write to " + path_.string() + ": " + std::strerror(errno));
+  if (::flock(file_.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     throw IoError(path_.string() + ": another run writes to it; wait for that, or take another --output-dir");
-  }
   char last = '\n';
-  if (const off_t size = ::lseek(file_, 0, SEEK_END);
-      size > 0 && ::pread(file_, &last, 1, size - 1) == 1 && last != '\n')
+  if (const off_t size = ::lseek(file_.number(), 0, SEEK_END);
+      size > 0 && ::pread(file_.number(), &last, 1, size - 1) == 1 && last != '\n')
     append("\n");
 }
-
-RecordFile::~RecordFile() { ::close(file_); }
 
 void RecordFile::add(AssetRecord record) {
   record.recorded = utc_now();
@@ -128,12 +124,12 @@ void RecordFile::add(AssetRecord record) {
 void RecordFile::append(const std::string& text) {
   const auto fail = [this] { throw IoError("cannot write to " + path_.string() + ": " + std::strerror(errno)); };
   for (std::string_view left = text; !left.empty();) {
-    const ssize_t written = ::write(file_, left.data(), left.size());
+    const ssize_t written = ::write(file_.number(), left.data(), left.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail();
     left.remove_prefix(static_cast<std::size_t>(written));
   }
-  if (::fdatasync(file_) != 0) fail();
+  if (::fdatasync(file_.number()) != 0) fail();
 }
 
 }  // namespace meshbound::tools

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "mesh/descriptor.h"
+
 namespace meshbound::tools {
 
 /// The record of an asset after its run: one line of a report, one row of the table.
@@ -44,9 +46,6 @@ class RecordFile {
   /// Opens or makes the file, and ends an incomplete last line. Throws `IoError`, also if another run has the file
   /// open.
   explicit RecordFile(std::filesystem::path path);
-  ~RecordFile();
-  RecordFile(const RecordFile&) = delete;
-  RecordFile& operator=(const RecordFile&) = delete;
 
   void add(AssetRecord record);  ///< with the time of now; throws `IoError`
 
@@ -54,7 +53,7 @@ class RecordFile {
   void append(const std::string& text);
 
   std::filesystem::path path_;
-  int file_ = -1;
+  Descriptor file_;
 };
 
 }  // namespace meshbound::tools

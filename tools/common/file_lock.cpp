@@ -16,11 +16,10 @@ namespace meshbound::tools {
 
 FileLock::FileLock(std::filesystem::path path) : path_(std::move(path)) {
   do {
-    if (file_ >= 0) ::close(file_);
-    file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file_ < 0) throw IoError("cannot write to " + path_.string() + ": " + std::strerror(errno));
-    if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      ::close(std::exchange(file_, -1));
+    file_ = Descriptor(::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+    if (!file_.is_open()) throw IoError("cannot write to " + path_.string() + ": " + std::strerror(errno));
+    if (::flock(file_.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      file_ = Descriptor();
       return;
     }
   } while (!is_still_there());  // else its holder removed it after it was opened here
@@ -30,15 +29,13 @@ FileLock::FileLock(std::filesystem::path path) : path_(std::move(path)) {
 bool FileLock::is_still_there() const {
   struct stat opened {};
   struct stat named {};
-  return ::fstat(file_, &opened) == 0 && ::stat(path_.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
+  return ::fstat(file_.number(), &opened) == 0 && ::stat(path_.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
          opened.st_ino == named.st_ino;
 }
 
 FileLock::~FileLock() {
   if (!is_held()) return;
   ::unlink(path_.c_str());  // before it is unlocked: nobody else has it yet
-  listed_.reset();
-  ::close(file_);
 }
 
 }  // namespace meshbound::tools

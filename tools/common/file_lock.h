@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "mesh/descriptor.h"
 #include "mesh/temporary_files.h"
 
 namespace meshbound::tools {
@@ -18,13 +19,13 @@ class FileLock {
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;
 
-  [[nodiscard]] bool is_held() const { return file_ >= 0; }  ///< false: by another process
+  [[nodiscard]] bool is_held() const { return file_.is_open(); }  ///< false: by another process
 
  private:
   [[nodiscard]] bool is_still_there() const;
 
   std::filesystem::path path_;
-  int file_ = -1;
+  Descriptor file_;
   std::optional<TemporaryName> listed_;
 };
 
