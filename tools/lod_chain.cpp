@@ -22,6 +22,7 @@
 #include "common/standard_streams.h"
 #include "common/texture_text.h"
 #include "decimation/decimation_run.h"
+#include "decimation/decimation_text.h"
 #include "deviation/deviation_outputs.h"
 #include "levels/scene_run.h"
 #include "lod/one_file.h"
@@ -253,7 +254,7 @@ void Run::choose_view() {
   std::vector<std::pair<double, double>> levels;  // tolerance, pixels
   for (const double pixels : options_.pixels) {
     for (const std::string& text : options_.distances) {
-      const double distance = parse_length("--distances", text).in_model_units(diagonal_);
+      const double distance = parse_length("--distances", text).in_model_units(original_.diagonal);
       levels.emplace_back(screen_space_tolerance(screen, pixels, distance), pixels);
     }
   }
@@ -281,7 +282,7 @@ void Run::make_levels() {
   report_.verdict = Verdict::Within;
   SimplifyOptions options = decimation(outputs_.back(), tolerances_.back(), *bar_);
   if (bounds_texture()) options.texture_tolerance = texture_tolerance_of(tolerances_.front());
-  scene_.emplace(original_, attributes_, options);
+  scene_.emplace(original_.mesh, original_.attributes, options);
   set_lines(scene_->lines());
   for (std::size_t i = 0; i < tolerances_.size() && make_level(i); ++i) continue;
   SimplifyResult run_of_all;
@@ -304,7 +305,7 @@ bool Run::make_level(std::size_t index) {
   steps.redo = [&](double tolerance) {
     SimplifyOptions again = decimation(output, tolerances_[index], *bar_);
     again.tolerance = before_rounding(tolerance);
-    return decimate_levels(original_, again, attributes_).last();
+    return decimate_levels(original_.mesh, again, original_.attributes).last();
   };
   const DecidedBy decided_by = make_output(output, tolerances_[index], steps, report_.seconds);
   report_.verdict = output.verdict();
@@ -390,7 +391,7 @@ void Run::stage_chain(std::deque<StagedText>& documents) {
   if (one_file_) {
     const PixelLimit limit{report_.view ? report_.view->pixels : 1, screen_height()};
     const auto vertices = options_.placement == "subset" ? LevelVertices::Shared : LevelVertices::Apart;
-    write_levels(*one_file_, outputs_, original_, attributes_, limit, vertices);
+    write_levels(*one_file_, outputs_, original_.mesh, original_.attributes, limit, vertices);
     one_file_->complete();
   }
   if (options_.tileset) documents.emplace_back(tileset_path(), tileset_text(), stop_at_signal());
@@ -405,8 +406,8 @@ std::string Run::tileset_text() const {
     levels.push_back({level.file, error});
   }
   Eigen::AlignedBox3d box;
-  for (const Triangle& t : original_.triangles)
-    for (const std::uint32_t v : t) box.extend(original_.vertices[v]);
+  for (const Triangle& t : original_.mesh.triangles)
+    for (const std::uint32_t v : t) box.extend(original_.mesh.vertices[v]);
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(levels.back().error);  // a level may stand out by that
   box.extend(Eigen::Vector3d(box.min() - margin));
   box.extend(Eigen::Vector3d(box.max() + margin));
@@ -431,12 +432,12 @@ void Run::print_summary() const {
   print_line("original", options_.input + ", " + face_count(report_.original.summary.faces));
   for (std::size_t i = 0; i < report_.levels.size(); ++i) {
     const LodReport::Level& level = report_.levels[i];
-    print_line(level.file, face_count(level.faces) + ", tolerance " + both_units(level.tolerance, diagonal_));
+    print_line(level.file, face_count(level.faces) + ", tolerance " + both_units(level.tolerance, original_.diagonal));
     if (level.stopped_by == to_string(EndedBy::Rounding)) print_line("", rounding_reason(outputs_[i], level.tolerance));
-    print_interval("", "distance ", level.distance.bounds, diagonal_);
-    print_lines(level.lines, diagonal_);
+    print_interval("", "distance ", level.distance.bounds, original_.diagonal);
+    print_lines(level.lines, original_.diagonal);
     if (level.normals) print_normals(*level.normals);
-    if (level.texture) print_texture(*level.texture, {"original to level", "level to original"}, diagonal_);
+    if (level.texture) print_texture(*level.texture, {"original to level", "level to original"}, original_.diagonal);
     if (level.view_distance)
       print_line("", exact_number(*level.pixels) + (*level.pixels == 1 ? " pixel" : " pixels") +
                          " on the screen from view distance " + short_number(*level.view_distance) + " on");

@@ -7,16 +7,12 @@
 #include <numbers>
 #include <utility>
 
-#include "attributes/seams.h"
-#include "common/distance_text.h"
 #include "common/length.h"
-#include "common/mesh_input.h"
 #include "common/provenance.h"
 #include "common/signals.h"
 #include "common/standard_streams.h"
+#include "decimation/decimation_text.h"
 #include "decimation/drivers.h"
-#include "decimation/dropped_attributes.h"
-#include "decimation/edge_file.h"
 #include "decimation/measurement_fault.h"
 #include "mesh/round_to_floats.h"
 #include "mesh/texture_transform.h"
@@ -69,18 +65,6 @@ std::vector<Refuted> refuted_by(const GatedOutput& output) {
 
 bool carries_texture_coordinates(FileFormat format) { return format != FileFormat::Stl && format != FileFormat::Off; }
 
-/// What --strict says of attributes that would not come along, and what to do.
-std::string lost_attributes(const DecimationOptions& options, const std::filesystem::path& output,
-                            const DroppedAttributes& dropped) {
-  const std::string lost =
-      as_typed(options.input) + ": " + as_typed(output.string()) + " would not carry " + listed(dropped);
-  return options.workers == nullptr
-             ? lost + "; choose another format, or leave out --strict"
-             : lost +
-                   ": --memory and MPI work on bare triangles; use simplify_with_bound without --memory, or leave "
-                   "out --strict";
-}
-
 }  // namespace
 
 int internal::undecided_measurements = 0;
@@ -88,52 +72,21 @@ int internal::undecided_measurements = 0;
 DecimationRun::DecimationRun(const DecimationOptions& options)
     : clock_(options.common),
       shared_(options),
-      measured_original_(original_, options.common.threads),
+      measured_original_(original_.mesh, options.common.threads),
       threads_(options.common.threads) {
   (void)collapse_driver(options.driver, options.cost);  // throws before any work where there is none
 }
 
 void DecimationRun::read_original(MeshReport& report, bool with_checksum, const std::filesystem::path& output) {
-  const FileFormat format = format_of(output);
-  const bool carries_solids = format == FileFormat::Stl && shared_.write.ascii;
-  const bool carries = !shared_.drop_attributes && (carries_attributes(format) || carries_solids);
-  const StopToken stop = clock_.stop_of_reading();
-  if (shared_.workers != nullptr) {
-    stored_original_ = read_stored_input(shared_.input, with_checksum, report, stop, *shared_.workers);
-    measured_original_.measure_in_tiles(*stored_original_, *shared_.workers);
-  } else {
-    original_ = read_input(shared_.input, with_checksum, report, stop, carries ? &attributes_ : nullptr);
-    validate(original_);
-  }
-  if (!shared_.texture_tolerance.empty()) {
-    texture_as_read_.texture_coordinates = attributes_.texture_coordinates;
-    texture_as_read_.texture_precision = attributes_.texture_precision;
-  }
+  original_ = tools::read_original(shared_, output, with_checksum, clock_.stop_of_reading(), report);
+  if (original_.stored) measured_original_.measure_in_tiles(*original_.stored, *shared_.workers);
   output_format_ = output.extension().string();
-  output_carries_texture_ = carries_texture_coordinates(format);
-  if (carries) {
-    TriangleLabels solids = carries_solids ? std::exchange(attributes_.groups, {}) : TriangleLabels();
-    attributes_ = carried_by(format, std::move(attributes_), *report.dropped);
-    if (carries_solids) attributes_.groups = std::move(solids);
-  }
-  if (!shared_.texture_tolerance.empty()) texture_as_read_.materials = attributes_.materials;
-  if (shared_.strict && *report.dropped != DroppedAttributes{})
-    throw InvalidInput(lost_attributes(shared_, output, *report.dropped));
-  if (!attributes_.empty()) {
-    ChartPartition all = charts(original_, attributes_);
-    feature_edges_ = seams(original_, attributes_, all);
-    looks_ = std::move(all.layers.look);
-  }
-  if (!shared_.feature_edges.empty()) {
-    const std::vector<Edge> given = read_edges(shared_.feature_edges, original_.vertices.size(), stop);
-    feature_edges_.insert(feature_edges_.end(), given.begin(), given.end());
-  }
-  rounding_ = placement_rounding(original_, attributes_);
-  diagonal_ = report.summary.bbox_diagonal;
+  output_carries_texture_ = carries_texture_coordinates(format_of(output));
 }
 
 void DecimationRun::add_tolerances(const std::string& flag, const std::vector<std::string>& texts) {
-  for (const std::string& text : texts) tolerances_.push_back(parse_length(flag, text).in_model_units(diagonal_));
+  for (const std::string& text : texts)
+    tolerances_.push_back(parse_length(flag, text).in_model_units(original_.diagonal));
 }
 
 void DecimationRun::sort_tolerances() { sort_unique(tolerances_); }
@@ -147,20 +100,21 @@ void DecimationRun::choose_appearance(const std::string& kind) {
   if (!output_carries_texture_)
     throw InvalidInput("--texture-tolerance needs texture coordinates, which the format of the output, " +
                        output_format_ + ", does not carry; use .obj, .ply or .glb");
-  if (attributes_.texture_coordinates.empty())
+  if (original_.attributes.texture_coordinates.empty())
     throw InvalidInput("--texture-tolerance needs texture coordinates, and " + kind +
                        " of a format that carries them (OBJ, PLY, glTF): none were found in " +
                        as_typed(shared_.input));
   warn_of_other_coordinates();
   if (shared_.texture_size)
-    texel_length_ = texel_length(textured_meshes(original_, attributes_, original_, attributes_)[0],
-                                 *shared_.texture_size * texture_scale(attributes_));
+    texel_length_ =
+        texel_length(textured_meshes(original_.mesh, original_.attributes, original_.mesh, original_.attributes)[0],
+                     *shared_.texture_size * texture_scale(original_.attributes));
 }
 
 /// Further sets of texture coordinates come along, but nothing is measured of them.
 void DecimationRun::warn_of_other_coordinates() const {
   std::string sets;
-  for (const NamedAttribute& attribute : attributes_.named)
+  for (const NamedAttribute& attribute : original_.attributes.named)
     if (attribute.name.starts_with("TEXCOORD_")) sets += (sets.empty() ? "" : ", ") + attribute.name;
   if (sets.empty()) return;
   const std::string warning =
@@ -176,9 +130,10 @@ SimplifyOptions DecimationRun::decimation(const GatedOutput& output, double tole
   options.preserve_boundary = shared_.preserve_boundary;
   if (shared_.feature_angle) options.feature_angle = *shared_.feature_angle / 180 * std::numbers::pi;
   if (!shared_.line_tolerance.empty())
-    options.line_tolerance = parse_length("--line-tolerance", shared_.line_tolerance).in_model_units(diagonal_);
-  options.feature_edges = feature_edges_;
-  options.looks = looks_;
+    options.line_tolerance =
+        parse_length("--line-tolerance", shared_.line_tolerance).in_model_units(original_.diagonal);
+  options.feature_edges = original_.feature_edges;
+  options.looks = original_.looks;
   if (shared_.placement == "subset") options.placements = CollapsePlacements::Subset;
   options.normal_tolerance = shared_.normal_tolerance;
   if (bounds_texture()) guard_texture(texture_tolerance_of(tolerance), options);
@@ -192,31 +147,31 @@ SimplifyOptions DecimationRun::decimation(const GatedOutput& output, double tole
 
 /// Makes the decimation refuse collapses that move the texture too far.
 void DecimationRun::guard_texture(double tolerance, SimplifyOptions& options) const {
-  const CornerAttribute& from = attributes_.texture_coordinates;
+  const CornerAttribute& from = original_.attributes.texture_coordinates;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   for (const Triangle& index : from.index) {
     auto& corners = options.texture_coordinates.emplace_back();
     for (std::size_t k = 0; k < 3; ++k)
       corners[k] = index[k] == CornerAttribute::none ? Eigen::Vector2d(none, none) : from.values[index[k]].head<2>();
   }
-  options.materials = attributes_.materials.index;
+  options.materials = original_.attributes.materials.index;
   options.texture_tolerance = tolerance;
 }
 
 double DecimationRun::before_rounding(double tolerance) const {
-  return rounding_ > 0 ? std::max(tolerance - rounding_, tolerance / 2) : tolerance;
+  return original_.rounding > 0 ? std::max(tolerance - original_.rounding, tolerance / 2) : tolerance;
 }
 
 /// Width of the interval that a distance with this tolerance is measured to, unless it was said.
 double DecimationRun::narrow_enough(double tolerance) const {
-  return std::max(default_error_bound * tolerance, min_error_bound * diagonal_);
+  return std::max(default_error_bound * tolerance, min_error_bound * original_.diagonal);
 }
 
 DistanceOptions DecimationRun::measurement(double tolerance) const {
   DistanceOptions options;
   options.error_bound = shared_.error_bound.empty()
                             ? narrow_enough(tolerance)
-                            : parse_length("--error-bound", shared_.error_bound).in_model_units(diagonal_);
+                            : parse_length("--error-bound", shared_.error_bound).in_model_units(original_.diagonal);
   options.tolerance = tolerance;
   options.threads = threads_;
   options.cancel = &interrupted();
@@ -227,7 +182,7 @@ DeviationSubject DecimationRun::deviation_subject(const GatedOutput& output, std
                                                   const TriangleMesh& result, DecidedBy how) const {
   const double tolerance = tolerances_.back();
   const HausdorffDistance& distance = output.distance();
-  DeviationSubject subject(original_, result, tolerance, distance.bounds, distance.a_to_b, &distance.b_to_a);
+  DeviationSubject subject(original_.mesh, result, tolerance, distance.bounds, distance.a_to_b, &distance.b_to_a);
   subject.original_name = "original";
   for (const GatedOutput& level : finer) subject.levels.push_back({level.written_mesh(), maxima_of(level.distance())});
   RepeatedMeasurement& repeated = subject.measurement;
@@ -240,8 +195,9 @@ DeviationSubject DecimationRun::deviation_subject(const GatedOutput& output, std
 
 /// The original as files like `output` would hold it.
 const TriangleMesh& DecimationRun::original_of_normals(const GatedOutput& output) {
-  if (output.precision() == Precision::Double || attributes_.document) return original_;  // floats of nodes are exact
-  if (!rounded_original_) rounded_original_ = rounded_for(output.path(), original_, shared_.write);
+  if (output.precision() == Precision::Double || original_.attributes.document)
+    return original_.mesh;  // floats of nodes are exact
+  if (!rounded_original_) rounded_original_ = rounded_for(output.path(), original_.mesh, shared_.write);
   return *rounded_original_;
 }
 
@@ -249,7 +205,8 @@ void DecimationRun::set_requirements(GatedOutput& output, double tolerance) {
   if (original_lines_) output.require_lines(&*original_lines_);
   if (bounds_texture()) {
     const double of_texture = texture_tolerance_of(tolerance);
-    output.require_texture(OriginalTexture{&original_, &texture_as_read_, of_texture, narrow_enough(of_texture)});
+    output.require_texture(
+        OriginalTexture{&original_.mesh, &original_.texture_as_read, of_texture, narrow_enough(of_texture)});
   }
   if (shared_.normal_tolerance)
     output.require_normals(OriginalNormals{&original_of_normals(output), *shared_.normal_tolerance});
@@ -301,9 +258,9 @@ void DecimationRun::narrow(GatedOutput& output, double tolerance) {
   }
 }
 
-/// Frames of nodes round by themselves (`rounding_`).
+/// Frames of nodes round by themselves (`original_.rounding`).
 bool DecimationRun::rounds_to_floats(const GatedOutput& output) const {
-  return rounding_ == 0 && output.precision() == Precision::Single;
+  return original_.rounding == 0 && output.precision() == Precision::Single;
 }
 
 /// What to do where the floats of the output are too coarse.
@@ -315,10 +272,10 @@ std::string DecimationRun::without_floats() const {
 /// The largest absolute value of a coordinate of the original.
 double DecimationRun::largest_coordinate() const {
   Eigen::AlignedBox3d box;
-  if (stored_original_)
-    stored_original_->for_each_vertex([&](std::uint32_t, const Eigen::Vector3d& p) { box.extend(p); });
+  if (original_.stored)
+    original_.stored->for_each_vertex([&](std::uint32_t, const Eigen::Vector3d& p) { box.extend(p); });
   else
-    box = used_bounding_box(original_);
+    box = used_bounding_box(original_.mesh);
   return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
 }
 
@@ -341,7 +298,7 @@ std::string DecimationRun::obstacle_of(const GatedOutput& output, double toleran
   double moved = 0;  // vertices of lines
   for (const Edge& line : lines_) {
     for (const std::uint32_t v : line) {
-      const Eigen::Vector3d& p = original_.vertices[v];
+      const Eigen::Vector3d& p = original_.mesh.vertices[v];
       moved = std::max({moved, rounding_of_frame * p.cwiseAbs().maxCoeff(),
                         has_floats ? (rounded_to_float(p) - p).stableNorm() : 0});
     }
@@ -390,14 +347,14 @@ void DecimationRun::look_at(GatedOutput& output, const SimplifiedLevel& level) {
   try {
     MeshAttributes visible;
     if (output.required_texture()) {
-      visible.texture_coordinates = attributes_.texture_coordinates;
-      visible.texture_precision = attributes_.texture_precision;
-      visible.materials = attributes_.materials;
+      visible.texture_coordinates = original_.attributes.texture_coordinates;
+      visible.texture_precision = original_.attributes.texture_precision;
+      visible.materials = original_.attributes.materials;
     }
-    visible.document = attributes_.document;
-    visible.part = attributes_.part;
+    visible.document = original_.attributes.document;
+    visible.part = original_.attributes.part;
     MeshAttributes attributes;
-    if (!visible.empty()) attributes = transferred_attributes(original_, visible, level);
+    if (!visible.empty()) attributes = transferred_attributes(original_.mesh, visible, level);
     MeshFile file;
     file.mesh = placed_as_written(level, attributes).mesh;
     file.attributes = std::move(attributes);
@@ -409,8 +366,9 @@ void DecimationRun::look_at(GatedOutput& output, const SimplifiedLevel& level) {
 /// False when the time limit came first.
 bool DecimationRun::writes(GatedOutput& output, const SimplifiedLevel& level) const {
   try {
-    const MeshAttributes attributes =
-        attributes_.empty() ? MeshAttributes() : transferred_attributes(original_, attributes_, level);
+    const MeshAttributes attributes = original_.attributes.empty()
+                                          ? MeshAttributes()
+                                          : transferred_attributes(original_.mesh, original_.attributes, level);
     const SimplifiedLevel placed = placed_as_written(level, attributes);
     output.write(placed.mesh, placed.lines, attributes);
     return true;
@@ -447,18 +405,19 @@ DecidedBy DecimationRun::prove(GatedOutput& output, double tolerance, const Outp
 }
 
 DecidedBy DecimationRun::fall_back(GatedOutput& output, const GatedOutput* smaller, const DistanceOptions& options) {
-  output.fall_back(smaller, measured_original_, lines_, attributes_, options);
+  output.fall_back(smaller, measured_original_, lines_, original_.attributes, options);
   return smaller != nullptr ? DecidedBy::SmallerLevel : DecidedBy::Original;
 }
 
 void DecimationRun::set_lines(std::vector<Edge> lines) {
   lines_ = std::move(lines);
   if (lines_.empty()) return;
-  const double tolerance = shared_.line_tolerance.empty()
-                               ? std::numeric_limits<double>::infinity()  // that of the mesh
-                               : parse_length("--line-tolerance", shared_.line_tolerance).in_model_units(diagonal_);
-  original_lines_.emplace(
-      OriginalLines{Bvh(line_mesh(original_, lines_), BvhOptions{shared_.common.threads}), tolerance, rounding_});
+  const double tolerance =
+      shared_.line_tolerance.empty()
+          ? std::numeric_limits<double>::infinity()  // that of the mesh
+          : parse_length("--line-tolerance", shared_.line_tolerance).in_model_units(original_.diagonal);
+  original_lines_.emplace(OriginalLines{Bvh(line_mesh(original_.mesh, lines_), BvhOptions{shared_.common.threads}),
+                                        tolerance, original_.rounding});
 }
 
 std::optional<LineReport> DecimationRun::line_report(const GatedOutput& output, double tolerance) const {
@@ -480,50 +439,6 @@ std::optional<NormalReport> DecimationRun::normal_report(const GatedOutput& outp
 
 void DecimationRun::end_if_interrupted() const {
   if (interrupted()) throw Error("interrupted before the result was proven; nothing was written");
-}
-
-void print_dropped(const MeshReport& original) {
-  if (original.dropped && *original.dropped != DroppedAttributes{})
-    std::printf("dropped: %s\n", listed(*original.dropped).c_str());
-  if (original.rest_pose_parts > 0)
-    std::printf("rest pose: %zu parts have a skin or morph targets, and the bound is of how they are without these\n",
-                original.rest_pose_parts);
-}
-
-std::string explanation(DecidedBy how) {
-  switch (how) {
-    case DecidedBy::Measurement:
-      return "";
-    case DecidedBy::SecondMethod:
-      return "the measurement was undecided; a second method decided it";
-    case DecidedBy::SmallerTolerance:
-      return "the distance of the first result could not be decided: made again for 99% of the tolerance";
-    case DecidedBy::SmallerLevel:
-      return "no result for this tolerance could be decided or has fewer faces: it is that of the next smaller one";
-    case DecidedBy::Original:
-      break;
-  }
-  return "no result for this tolerance could be decided: it is the original";
-}
-
-void print_locked(std::size_t vertices, const MeshSummary& original) {
-  if (vertices == 0) return;
-  print_line("locked", std::to_string(vertices) + " of " + std::to_string(original.vertices) +
-                           " vertices: they stay where they are, for edges");
-}
-
-void print_lines(const std::optional<LineReport>& lines, double diagonal) {
-  if (!lines) return;
-  print_line("lines", std::to_string(lines->original_edges) + " -> " + std::to_string(lines->edges) +
-                          " edges, tolerance " + both_units(lines->tolerance, diagonal));
-  print_interval("", "distance ", lines->distance.bounds, diagonal);
-}
-
-void print_seconds(const SimplifyReport::Seconds& seconds, int threads) {
-  print_line("seconds", "read " + rounded_seconds(seconds.read) + ", simplify " + rounded_seconds(seconds.simplify) +
-                            ", write " + rounded_seconds(seconds.write) + ", certify " +
-                            rounded_seconds(seconds.certify) + ", total " + rounded_seconds(seconds.total) +
-                            thread_count(threads));
 }
 
 }  // namespace meshbound::tools

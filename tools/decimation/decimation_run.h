@@ -11,6 +11,7 @@
 #include "common/run_clock.h"
 #include "common/signals.h"
 #include "decimation/decimation_options.h"
+#include "decimation/original.h"
 #include "decimation/texture_tolerance.h"
 #include "deviation/deviation_outputs.h"
 #include "levels/scene_run.h"
@@ -25,8 +26,7 @@ class DecimationRun {
   /// `options` must outlive this. Throws `InvalidInput` for a driver that is not there or does not know the cost.
   explicit DecimationRun(const DecimationOptions& options);
 
-  /// Reads and validates the input; its checksum is computed where a document is to name it. Attributes come along
-  /// where files like `output` carry them. Throws `Stopped` when the time limit comes first.
+  /// As `tools::read_original`. Throws `Stopped` when the time limit comes first.
   void read_original(MeshReport& report, bool with_checksum, const std::filesystem::path& output);
   /// `flag` names the option that `texts` come from, for messages.
   void add_tolerances(const std::string& flag, const std::vector<std::string>& texts);
@@ -40,7 +40,7 @@ class DecimationRun {
   [[nodiscard]] bool bounds_appearance() const { return bounds_texture() || shared_.normal_tolerance; }
   /// How far the texture of a level with this tolerance may move, model units. Needs `bounds_texture`.
   [[nodiscard]] double texture_tolerance_of(double tolerance) const {
-    return texture_tolerance_->of_level(tolerance, diagonal_, texel_length_);
+    return texture_tolerance_->of_level(tolerance, original_.diagonal, texel_length_);
   }
 
   /// Options of a decimation to this tolerance whose result is measured as it reads from files like `output`.
@@ -94,18 +94,9 @@ class DecimationRun {
   [[nodiscard]] int threads() const { return threads_; }
 
   RunClock clock_;
-  TriangleMesh original_;                        ///< empty where there are workers on tiles
-  std::unique_ptr<StoredMesh> stored_original_;  ///< for these
-  double diagonal_ = 0;
+  Original original_;
   std::vector<double> tolerances_;
-  MeshAttributes attributes_;  ///< of the original, as outputs carry them
-  /// Texture coordinates and materials as IN has them, which what was written is compared with: where its texture is
-  /// bounded.
-  MeshAttributes texture_as_read_;
-  double rounding_ = 0;               ///< what the frames of nodes may move vertices by, model units
-  std::vector<Edge> feature_edges_;   ///< seams of these, and the edges of --feature-edges
-  std::vector<std::uint32_t> looks_;  ///< by triangle of the original, see `SimplifyOptions::looks`
-  std::vector<Edge> lines_;           ///< of the original
+  std::vector<Edge> lines_;  ///< of the original
   std::optional<OriginalLines> original_lines_;
   /// Why the last output that was made does not hold, a sentence without an end. Empty: it holds, or a proof was wrong.
   std::string obstacle_;
@@ -138,21 +129,5 @@ class DecimationRun {
   MeshWithTree measured_original_;
   int threads_;
 };
-
-/// "dropped: 6553 texture coordinates, 1 material", a line on stdout where the original has what no output carries, and
-/// another one where it has parts that were measured in rest pose.
-void print_dropped(const MeshReport& original);
-
-/// What to tell the user about a result that was not decided at once: a sentence, empty where there is nothing to say.
-[[nodiscard]] std::string explanation(DecidedBy how);
-
-/// "locked      12 of 482 vertices: ...", a line on stdout where options lock some.
-void print_locked(std::size_t vertices, const MeshSummary& original);
-
-/// "lines       64 -> 10 edges ...", lines on stdout where there are feature lines.
-void print_lines(const std::optional<LineReport>& lines, double diagonal);
-
-/// "seconds     read 0.010, simplify ...", a line on stdout.
-void print_seconds(const SimplifyReport::Seconds& seconds, int threads);
 
 }  // namespace meshbound::tools

@@ -123,12 +123,12 @@ void Run::read() {
 void Run::plan_memory() {
   const TileOptions tiles{options_.tile_triangles};
   use_threads(threads_within(parse_memory("--memory", options_.memory), "--memory " + options_.memory,
-                             stored_original_->triangle_count(), tiles, cost_of_simplifying, options_.common.threads));
+                             original_.stored->triangle_count(), tiles, cost_of_simplifying, options_.common.threads));
 }
 
 SimplifiedLevel Run::decimated(const SimplifyOptions& options) const {
-  if (options_.workers != nullptr) return options_.workers->decimate(*stored_original_, options).last();
-  return decimate_levels(original_, options, attributes_).last();
+  if (options_.workers != nullptr) return options_.workers->decimate(*original_.stored, options).last();
+  return decimate_levels(original_.mesh, options, original_.attributes).last();
 }
 
 /// Fills `tolerances_`, the last being that of OUT.
@@ -179,7 +179,7 @@ void Run::choose_options(ProgressBar& bar) {
 /// Makes what makes the levels, and finds the lines; not where workers on tiles do.
 void Run::make_scene() {
   if (options_.workers != nullptr) return;
-  scene_.emplace(original_, attributes_, simplify_);
+  scene_.emplace(original_.mesh, original_.attributes, simplify_);
   set_lines(scene_->lines());
 }
 
@@ -196,7 +196,7 @@ int Run::foresee() {
       obstacle_ = obstacle_of_original(outputs_[i], tolerance_of(i));
   }
   if (obstacle_.empty()) {
-    print_estimate(report_.original.summary.faces, report_.tolerance, diagonal_);
+    print_estimate(report_.original.summary.faces, report_.tolerance, original_.diagonal);
     return ExitDone;
   }
   tell_obstacle();
@@ -238,13 +238,13 @@ void Run::make_levels() {
 /// Sets `result_`, whose only level is this one.
 void Run::make_level(std::size_t level) {
   if (!scene_) {
-    result_ = options_.workers->decimate(*stored_original_, simplify_);
+    result_ = options_.workers->decimate(*original_.stored, simplify_);
     return;
   }
   const bool is_last = level + 1 == tolerances_.size();
   const double tolerance = is_last ? simplify_.tolerance : before_rounding(tolerances_[level]);
   if (bounds_texture()) scene_->set_texture_tolerance(texture_tolerance_of(tolerances_[level]));
-  SimplifiedLevel made = scene_->next(tolerance, is_last ? target_faces(original_, simplify_) : 0);
+  SimplifiedLevel made = scene_->next(tolerance, is_last ? target_faces(original_.mesh, simplify_) : 0);
   result_ = {};
   result_.levels.push_back(std::move(made));
   scene_->describe(result_);
@@ -280,16 +280,16 @@ std::optional<Certificate> Run::certificate_of(const GatedOutput& output, double
     file.mesh = output.written_mesh();
   const TriangleMesh& written = file.mesh;
   if (options_.workers != nullptr)
-    return options_.workers->certify(*stored_original_, MeshInMemory(written), tolerance, options);
+    return options_.workers->certify(*original_.stored, MeshInMemory(written), tolerance, options);
   if (original_lines_)
     options.lines = CertifiedLines{lines_, output.lines_of(written), std::min(tolerance, original_lines_->tolerance)};
   const Stopwatch watch;
-  auto certificate = build_certificate(original_, written, tolerance, options);
+  auto certificate = build_certificate(original_.mesh, written, tolerance, options);
   if (!certificate || !bounds_texture()) return certificate;
   options.seconds -= watch.seconds();
-  auto with_texture =
-      with_texture_proof(*certificate, textured_meshes(original_, texture_as_read_, written, file.attributes),
-                         texture_tolerance_of(tolerance), options);
+  auto with_texture = with_texture_proof(
+      *certificate, textured_meshes(original_.mesh, original_.texture_as_read, written, file.attributes),
+      texture_tolerance_of(tolerance), options);
   if (!with_texture) return std::nullopt;
   return std::move(with_texture->certificate);
 }
@@ -333,7 +333,8 @@ void Run::measure_deviation() {
   std::span<const GatedOutput> finer(outputs_.begin(), outputs_.end() - 1);
   if (options_.deviation.report.empty()) finer = {};
   DeviationSubject subject = deviation_subject(out, finer, written.mesh, decided_by_.back());
-  const CornerAttribute &before = attributes_.texture_coordinates, &after = written.attributes.texture_coordinates;
+  const CornerAttribute &before = original_.attributes.texture_coordinates,
+                        &after = written.attributes.texture_coordinates;
   if (!before.empty()) subject.original_texture = &before;
   if (!after.empty()) subject.result_texture = &after;
   subject.result_name = "simplified";
@@ -394,7 +395,7 @@ void Run::publish() {
 void Run::tell() {
   if (verdict_ == Verdict::Within && options_.common.prints_summary() && !is_stream_path(options_.output)) {
     const bool is_rounded = result_.last().ended_by == EndedBy::Rounding;
-    print_summary({options_, report_, result_, outputs_, decided_by_, ended_by_time(), diagonal_,
+    print_summary({options_, report_, result_, outputs_, decided_by_, ended_by_time(), original_.diagonal,
                    is_rounded ? rounding_reason(outputs_.back(), report_.tolerance) : ""});
   }
   if (verdict_ == Verdict::Within && ended_by_time())

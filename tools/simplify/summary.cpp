@@ -7,7 +7,8 @@
 #include "common/length.h"
 #include "common/memory.h"
 #include "common/texture_text.h"
-#include "decimation/decimation_run.h"
+#include "common/tile_workers.h"
+#include "decimation/decimation_text.h"
 #include "deviation/deviation_outputs.h"
 
 namespace meshbound::tools {
