@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <algorithm>
-#include <bit>
-#include <cmath>
+#include <array>
+#include <cstdint>
 #include <optional>
-#include <utility>
+#include <span>
+#include <vector>
 
-#include "geometry/boxes.h"
 #include "geometry/triangle_corners.h"
 #include "meshbound/proximity.h"
 #include "numeric/marked_ids.h"
 #include "numeric/no_index.h"
-#include "numeric/sort_unique.h"
 #include "simplify/cover/forward_cover.h"
 #include "simplify/cover/loop_cover.h"
 #include "simplify/cover/parity_proof.h"
@@ -27,150 +25,23 @@ namespace meshbound {
 /// The scratch memory and the data with which one thread proves single triangles and faces.
 class ProofWorkers::Worker {
  public:
-  explicit Worker(const DecimationState& state)
-      : state_(state),
-        cover_(state.vertices, state.triangles),
-        original_{state.vertices, state.triangles, state.neighbours},
-        affected_members_(state.clustered.clusters.count(), 0),
-        slab_proof_(original_, state.clustered.clusters, state.clustered.slabs),
-        proximity_(state.tree),
-        prepared_(MeshSoup{state.mesh}),
-        loops_(state.vertices, state.triangles, prepared_),
-        sub_triangles_(state.mesh, cover_) {}
+  explicit Worker(const DecimationState& state);
 
   /// Must be called where the mesh may have changed, before `cover` or `cover_anywhere`: what has been prepared of its
   /// faces is kept until then.
-  void forget_faces() {
-    prepared_.forget();
-    loops_.forget();
-  }
+  void forget_faces();
   /// Faces that cover an original triangle together; none if no cover was found. Valid until the next call.
-  std::span<const std::uint32_t> cover(std::uint32_t t) {
-    drafted_.clear();
-    const TriangleCorners corners = state_.original(t);
-    const double limit = state_.limit_around(corners);
-    if (!(limit > 0)) return {};
-    std::array<std::uint32_t, 3> at{};
-    for (std::size_t k = 0; k < 3; ++k) at[k] = sample_face(state_.triangles[t][k]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (at[k] == no_index || (k > 0 && at[k] == at[0]) || (k == 2 && at[2] == at[1])) continue;
-      if (holds(at[k], corners, limit)) return draft(at[k]);
-    }
-    const auto known = std::find_if(at.begin(), at.end(), [](std::uint32_t f) { return f != no_index; });
-    const auto is_usable = [](std::uint32_t) { return true; };
-    if (known != at.end()) {
-      const std::uint32_t under = face_under(centroid(corners), *known);
-      if (holds(under, corners, limit)) return draft(under);
-      loops_.set_tolerance(limit, state_.magnitude);
-      const auto start_at = [&](std::uint32_t from, std::uint32_t) {
-        return LoopCover::Start{sample_face(from), false};
-      };
-      if (loops_.covers(t, start_at, is_usable, drafted_)) return drafted_;
-    }
-    if (const std::uint32_t f = across(at, corners, limit); f != no_index) return draft(f);
-    find_around(at, {corners, state_.tolerance});
-    cover_by_found(t, corners, limit, is_usable);
-    return drafted_;
-  }
+  std::span<const std::uint32_t> cover(std::uint32_t t);
 
   /// As `cover`, with faces found by boxes where the samples do not know which faces are near.
-  std::span<const std::uint32_t> cover_anywhere(std::uint32_t t, const FaceBoxes& boxes) {
-    drafted_.clear();
-    const TriangleCorners corners = state_.original(t);
-    const double limit = state_.limit_around(corners);
-    if (!(limit > 0)) return {};
-    found_.clear();
-    const ReachOfTriangle reach(corners, state_.tolerance);
-    boxes.find(reach.box(), found_);
-    std::erase_if(found_,
-                  [&](std::uint32_t f) { return state_.mesh.is_removed(f) || !reach.meets(state_.mesh.triangle(f)); });
-    if (!sub_triangles_.is_near_one_of(found_, centroid(corners), limit)) return {};
-    const auto one =
-        std::find_if(found_.begin(), found_.end(), [&](std::uint32_t f) { return holds(f, corners, limit); });
-    if (one != found_.end()) return draft(*one);
-    (void)sub_triangles_.covers(corners, found_, limit, drafted_);
-    return drafted_;
-  }
+  std::span<const std::uint32_t> cover_anywhere(std::uint32_t t, const FaceBoxes& boxes);
 
   /// Whether a face is near the original; `near` is an original triangle to start with, and the one found.
-  bool is_near(std::uint32_t face, std::uint32_t& near) {
-    const TriangleCorners corners = state_.mesh.triangle(face);
-    for (const Vec3 p : corners)
-      if (!(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= state_.magnitude + state_.tolerance))
-        return false;
-    const double limit = state_.limit_around(corners);
-    if (!(limit > 0)) return false;
-    const bool is_large = has_room_for_clusters(corners, near);
-    if (is_large && slab_proof_.covers(corners, limit, state_.magnitude, near)) return true;
-    open_parts_.clear();
-    original_patches_.cover(
-        original_, {corners, 0}, limit, state_.magnitude,
-        [&](const TriangleCorners& part) {
-          (void)proximity_.upper_distance(to_eigen(centroid(part)), near, limit);
-          return near;
-        },
-        is_large ? max_strips_of_large : 1, open_parts_);
-    return std::all_of(open_parts_.begin(), open_parts_.end(), [&](const PatchCover::Part& part) {
-      const auto& [a, b, c] = part.corners;
-      return proximity_.triangle_within({to_eigen(a), to_eigen(b), to_eigen(c)}, limit, near) == Verdict::Within;
-    });
-  }
+  bool is_near(std::uint32_t face, std::uint32_t& near);
 
   /// Covers of the originals that relied on these faces, which have just been changed, by index below `affected()`.
   /// False where one was not found.
-  bool cover_change(std::span<const std::uint32_t> changed, const Split& split, std::uint32_t region) {
-    forget_faces();
-    meets_seam_ = false;
-    lost_point_.reset();
-    find_affected(changed);
-    const auto owned = [&](std::uint32_t face) { return split.owns_face(region, face); };
-    if (!split.region_of.empty()) {
-      for (const std::uint32_t t : affected_)
-        if (!is_covered_in(split, region, state_.cover, t)) return meets_seam_ = true, false;
-    }
-    if (affected_.empty()) return true;
-    Eigen::AlignedBox3d box;
-    if (state_.local) {
-      for (const std::uint32_t t : affected_) box.extend(box_of(state_.original(t)));
-      for (const std::uint32_t face : changed)
-        if (!state_.mesh.is_removed(face)) box.extend(box_of(state_.mesh.triangle(face)));
-    }
-    const double limit = state_.local ? state_.limit_in(box) : state_.limit;
-    if (!(limit > 0)) return false;
-    cover_.begin(limit);
-    found_marks_.clear();
-    found_.clear();
-    for (const std::uint32_t face : changed) {
-      found_marks_.insert(face);
-      if (!state_.mesh.is_removed(face)) enter_face(face);
-    }
-    const FaceMask added = ForwardCover::first(cover_.size());
-    const std::size_t added_count = found_.size();
-    begin_covers();
-    in_pieces_.clear();
-    const bool has_large_faces = affected_.size() >= min_originals_of_face * added_count;
-    for (std::size_t first = 0; first < affected_.size();) {
-      const std::size_t end = has_large_faces ? end_of_cluster(first) : affected_.size();
-      if (!has_large_faces || !cover_cluster(first, end, added)) cover_one_by_one(first, end, added);
-      first = end;
-    }
-    loops_.set_tolerance(limit, state_.magnitude);
-    bool has_ring = false;
-    for (const std::size_t i : in_pieces_) {
-      const std::uint32_t t = affected_[i];
-      const auto start_at = [&](std::uint32_t from, std::uint32_t to) { return start_of_walk(t, from, to, added); };
-      if (!loops_.covers(t, start_at, owned, drafted_)) {
-        if (!std::exchange(has_ring, true)) {
-          enter_ring(added_count, owned);
-          enter_covers();
-        }
-        if (!cover_by_candidates(t, limit, owned)) return lost_point_ = cover_.lost_point(), false;
-      }
-      set_cover(i, drafted_);
-    }
-    meets_seam_ = false;
-    return true;
-  }
+  bool cover_change(std::span<const std::uint32_t> changed, const Split& split, std::uint32_t region);
   [[nodiscard]] std::size_t affected() const { return affected_.size(); }
   /// Where `cover_change` has failed last: a point of the original that is too far from all faces asked. Absent where
   /// it failed for another reason.
@@ -178,85 +49,24 @@ class ProofWorkers::Worker {
   /// Whether `cover_change` failed, but might have found a cover with the help of faces of other regions.
   [[nodiscard]] bool meets_seam() const { return meets_seam_; }
   /// Takes over the covers found last.
-  void assign_covers(CoverAssignment& cover) const {
-    cover.assign(affected_, [&](std::size_t i) { return std::span(ids_).subspan(covers_[i].begin, covers_[i].count); });
-  }
+  void assign_covers(CoverAssignment& cover) const;
 
   /// As `cover_change` for many faces: each original has candidates of its own, the faces around it.
-  bool cover_group(std::span<const std::uint32_t> changed, const Split& split, std::uint32_t region) {
-    forget_faces();
-    find_affected(changed);
-    const auto owned = [&](std::uint32_t face) { return split.owns_face(region, face); };
-    begin_covers();
-    for (std::size_t i = 0; i < affected_.size(); ++i) {
-      if (!is_covered_in(split, region, state_.cover, affected_[i])) return false;
-      if (!cover_among(affected_[i], changed, owned)) return false;
-      set_cover(i, drafted_);
-    }
-    return true;
-  }
+  bool cover_group(std::span<const std::uint32_t> changed, const Split& split, std::uint32_t region);
 
  private:
   /// Finds the originals that rely on these faces, cluster by cluster.
-  void find_affected(std::span<const std::uint32_t> changed) {
-    affected_clusters_.clear();
-    for (const std::uint32_t face : changed) {
-      if (state_.is_fixed[face] != 0) continue;
-      for (const std::uint32_t t : state_.cover.originals_of(face)) {
-        OriginalClusters::Members& members = affected_members_[OriginalClusters::cluster_of(t)];
-        if (members == 0) affected_clusters_.push_back(OriginalClusters::cluster_of(t));
-        members |= OriginalClusters::member(t);
-      }
-    }
-    affected_.clear();
-    for (const std::uint32_t c : affected_clusters_) {
-      for (unsigned members = affected_members_[c]; members != 0; members &= members - 1)
-        affected_.push_back(c * OriginalClusters::size + static_cast<std::uint32_t>(std::countr_zero(members)));
-      affected_members_[c] = 0;
-    }
-  }
+  void find_affected(std::span<const std::uint32_t> changed);
   /// The face of the mesh that the sample at an original vertex is assigned to, if any.
-  [[nodiscard]] std::uint32_t sample_face(std::uint32_t vertex) const {
-    const std::uint32_t face = state_.samples.face_of(vertex);
-    return face == no_index || state_.mesh.is_removed(face) ? no_index : face;
-  }
-  [[nodiscard]] std::size_t end_of_cluster(std::size_t first) const {
-    const std::uint32_t cluster = OriginalClusters::cluster_of(affected_[first]);
-    std::size_t end = first + 1;
-    while (end < affected_.size() && OriginalClusters::cluster_of(affected_[end]) == cluster) ++end;
-    return end;
-  }
+  [[nodiscard]] std::uint32_t sample_face(std::uint32_t vertex) const;
+  [[nodiscard]] std::size_t end_of_cluster(std::size_t first) const;
   /// Covers the affected originals of a cluster by a single candidate, if one holds the whole cluster.
-  bool cover_cluster(std::size_t first, std::size_t end, FaceMask allowed) {
-    const std::uint32_t cluster = OriginalClusters::cluster_of(affected_[first]);
-    if (end - first < min_affected_of_cluster) return false;
-    const FaceMask used = cover_.hold_all(state_.clustered.clusters.vertices(cluster), allowed);
-    if (used == 0) return false;
-    set_cover(first, used);
-    const auto covers = std::span(covers_).subspan(first, end - first);
-    std::fill(covers.begin(), covers.end(), covers.front());
-    return true;
-  }
+  bool cover_cluster(std::size_t first, std::size_t end, FaceMask allowed);
   /// Covers affected originals by a candidate each; what has none is to be covered in pieces.
-  void cover_one_by_one(std::size_t first, std::size_t end, FaceMask allowed) {
-    for (std::size_t i = first; i < end; ++i) {
-      const FaceMask used = cover_.cover_whole(affected_[i], allowed);
-      set_cover(i, used);
-      if (used == 0) in_pieces_.push_back(i);
-    }
-  }
-  void begin_covers() {
-    ids_.clear();
-    covers_.assign(affected_.size(), {});
-  }
-  void set_cover(std::size_t i, std::span<const std::uint32_t> faces) {
-    covers_[i] = {ids_.size(), faces.size()};
-    ids_.insert(ids_.end(), faces.begin(), faces.end());
-  }
-  void set_cover(std::size_t i, FaceMask used) {
-    covers_[i] = {ids_.size(), static_cast<std::size_t>(std::popcount(used))};
-    take(used, ids_);
-  }
+  void cover_one_by_one(std::size_t first, std::size_t end, FaceMask allowed);
+  void begin_covers();
+  void set_cover(std::size_t i, std::span<const std::uint32_t> faces);
+  void set_cover(std::size_t i, FaceMask used);
   /// The faces that a parity proof of an original may use.
   template <class Usable>
   struct UsableFaces {
@@ -271,196 +81,53 @@ class ProofWorkers::Worker {
   };
   /// Covers a large original by patches of usable faces, and by the candidates where patches end.
   template <class Usable>
-  bool cover_by_patches(const TriangleCorners& corners, double limit, const Usable& is_usable) {
-    drafted_.clear();
-    open_parts_.clear();
-    patches_.cover(UsableFaces<Usable>{{state_.mesh}, is_usable}, {corners, 0}, limit, state_.magnitude, found_,
-                   drafted_, open_parts_);
-    for (const PatchCover::Part& part : open_parts_) {
-      const std::optional<FaceMask> used = cover_.cover_sub_triangle(part.corners, part.cuts);
-      if (!used || *used == 0) return drafted_.clear(), false;
-      take(*used, drafted_);
-    }
-    sort_unique(drafted_);
-    return true;
-  }
+  bool cover_by_patches(const TriangleCorners& corners, double limit, const Usable& is_usable);
   /// A candidate of `added` that holds a vertex of an original, or else one of the faces that have covered the
   /// original. Samples may belong to faces of other regions, which other threads change.
-  [[nodiscard]] LoopCover::Start start_of_walk(std::uint32_t t, std::uint32_t from, std::uint32_t to, FaceMask added) {
-    if (const FaceMask of_start = cover_.holding(from, added); of_start != 0) {
-      const FaceMask of_both = of_start & cover_.holding(to, added);
-      return {cover_.face(std::countr_zero(of_both != 0 ? of_both : of_start)), of_both != 0};
-    }
-    for (const std::uint32_t f : state_.cover.faces_of(t))
-      if (!state_.mesh.is_removed(f) && loops_.is_near(f, state_.vertices[from])) return {f, false};
-    return {};
-  }
+  [[nodiscard]] LoopCover::Start start_of_walk(std::uint32_t t, std::uint32_t from, std::uint32_t to, FaceMask added);
   /// Covers an original by candidates, or by faces around them where many covered it before. `drafted_` are then those
   /// that do so.
   template <class Usable>
-  bool cover_by_candidates(std::uint32_t t, double limit, const Usable& is_usable) {
-    const FaceMask all = ForwardCover::first(cover_.size());
-    if (!cover_.are_corners_near(t, all)) return false;
-    if (state_.cover.faces_of(t).size() >= many_faces && cover_by_patches(original_.corners(t), limit, is_usable))
-      return true;
-    drafted_.clear();
-    take(cover_.cover(t, all), drafted_);
-    return !drafted_.empty();
-  }
+  bool cover_by_candidates(std::uint32_t t, double limit, const Usable& is_usable);
   /// Covers an original by faces near those found. `drafted_`, empty before, are then those that do so.
   template <class Usable>
-  void cover_by_found(std::uint32_t t, const TriangleCorners& corners, double limit, const Usable& is_usable) {
-    if (found_.size() <= CandidateFaces::capacity) {
-      if (cover_by_few(t, limit)) return;
-      if (!cover_.lost_point() && cover_by_patches(corners, limit, is_usable)) return;
-    }
-    (void)sub_triangles_.covers(corners, found_, limit, drafted_);
-  }
+  void cover_by_found(std::uint32_t t, const TriangleCorners& corners, double limit, const Usable& is_usable);
   /// Covers an original by the faces found, which are not more than candidates may be.
-  bool cover_by_few(std::uint32_t t, double limit) {
-    cover_.begin(limit);
-    for (const std::uint32_t f : found_) cover_.add(state_.mesh.triangle(f), f);
-    take(cover_.cover_thoroughly(t, ForwardCover::first(cover_.size())), drafted_);
-    return !drafted_.empty();
-  }
+  bool cover_by_few(std::uint32_t t, double limit);
   /// Enters the faces around the first `count` of those found.
   template <class Owned>
-  void enter_ring(std::size_t count, const Owned& owned) {
-    vertex_marks_.clear();
-    for (std::size_t k = 0; k < count; ++k) {
-      for (Corner c = 3 * found_[k]; c < 3 * found_[k] + 3; ++c) {
-        if (!vertex_marks_.insert(state_.mesh.vertex(c))) continue;
-        state_.mesh.for_each_corner(state_.mesh.vertex(c), [&](Corner d) {
-          if (!found_marks_.insert(d / 3)) return true;
-          if (owned(d / 3))
-            enter_face(d / 3);
-          else
-            meets_seam_ = true;
-          return found_.size() < CandidateFaces::capacity;
-        });
-      }
-    }
-  }
+  void enter_ring(std::size_t count, const Owned& owned);
   /// Enters the faces that have covered the originals in pieces: large ones reach beyond the ring.
-  void enter_covers() {
-    for (const std::size_t i : in_pieces_)
-      for (const std::uint32_t f : state_.cover.faces_of(affected_[i]))
-        if (!state_.mesh.is_removed(f) && found_marks_.insert(f)) enter_face(f);
-  }
-  void enter_face(std::uint32_t face) {
-    found_.push_back(face);
-    cover_.add(state_.mesh.triangle(face), face);
-  }
+  void enter_covers();
+  void enter_face(std::uint32_t face);
   /// The face above or below which a point lies, seen along the normals of the faces, or one on the way there. Walks
   /// from `face` across the edge that the point is furthest beyond: a sample that others go with is not always near
   /// theirs.
-  [[nodiscard]] std::uint32_t face_under(Vec3 p, std::uint32_t face) const {
-    for (int steps = 0; steps < max_steps; ++steps) {
-      const TriangleCorners c = state_.mesh.triangle(face);
-      const Vec3 normal = cross(c[1] - c[0], c[2] - c[0]);
-      std::uint32_t next = no_index;
-      double furthest = 0;
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        const Vec3 edge = c[(k + 1) % 3] - c[k];
-        const double beyond = dot(cross(p - c[k], edge), normal);
-        if (!(beyond > 0) || !(beyond * beyond > furthest * squared_length(edge))) continue;
-        const Corner twin = state_.mesh.twin(3 * face + k);
-        if (twin == no_index) continue;
-        furthest = beyond * beyond / squared_length(edge);
-        next = twin / 3;
-      }
-      if (next == no_index) break;
-      face = next;
-    }
-    return face;
-  }
+  [[nodiscard]] std::uint32_t face_under(Vec3 p, std::uint32_t face) const;
 
   /// A face beside one of these that holds all of an original: around a hub most faces are far from it. `no_index` if
   /// there is none.
-  std::uint32_t across(const std::array<std::uint32_t, 3>& faces, const TriangleCorners& corners, double limit) {
-    for (const std::uint32_t f : faces) {
-      if (f == no_index) continue;
-      for (Corner c = 3 * f; c < 3 * f + 3; ++c) {
-        const Corner twin = state_.mesh.twin(c);
-        if (twin != no_index && holds(twin / 3, corners, limit)) return twin / 3;
-      }
-    }
-    return no_index;
-  }
+  std::uint32_t across(const std::array<std::uint32_t, 3>& faces, const TriangleCorners& corners, double limit);
 
   /// Like `CandidateFaces::holds`, for faces that are asked for once.
-  bool holds(std::uint32_t face, const TriangleCorners& points, double limit) {
-    const PreparedTriangle& triangle = prepared_.triangle(face);
-    return std::all_of(points.begin(), points.end(), [&](Vec3 p) { return triangle.is_within(p, limit * limit); });
-  }
+  bool holds(std::uint32_t face, const TriangleCorners& points, double limit);
 
   /// Covers an original by faces that were changed, or else by faces near those: at a hub these are thousands.
   /// `drafted_` are then those that do so.
   template <class Owned>
-  bool cover_among(std::uint32_t t, std::span<const std::uint32_t> changed, const Owned& owned) {
-    drafted_.clear();
-    const TriangleCorners corners = state_.original(t);
-    const double limit = state_.limit_around(corners);
-    if (!(limit > 0)) return false;
-    for (const std::uint32_t f : state_.cover.faces_of(t)) {
-      if (state_.mesh.is_removed(f) || !holds(f, corners, limit)) continue;
-      drafted_.push_back(f);
-      return true;
-    }
-    const ReachOfTriangle reach(corners, state_.tolerance);
-    found_.clear();
-    found_marks_.clear();
-    for (const std::uint32_t f : changed) {
-      if (state_.mesh.is_removed(f) || !reach.meets(state_.mesh.triangle(f))) continue;
-      found_marks_.insert(f);
-      found_.push_back(f);
-    }
-    if (found_.size() <= CandidateFaces::capacity && cover_by_few(t, limit)) return true;
-    spread(reach, owned);
-    cover_by_found(t, corners, limit, owned);
-    return !drafted_.empty();
-  }
+  bool cover_among(std::uint32_t t, std::span<const std::uint32_t> changed, const Owned& owned);
 
   /// Finds the faces that hang together with those at the corners and that meet `reach`.
-  void find_around(const std::array<std::uint32_t, 3>& at, const ReachOfTriangle& reach) {
-    found_.clear();
-    found_marks_.clear();
-    for (const std::uint32_t f : at)
-      if (f != no_index && found_marks_.insert(f)) found_.push_back(f);
-    spread(reach, [](std::uint32_t) { return true; });
-  }
+  void find_around(const std::array<std::uint32_t, 3>& at, const ReachOfTriangle& reach);
   /// Adds the faces that hang together with those found, by faces of which that is true, and that meet `reach`.
   template <class Wanted>
-  void spread(const ReachOfTriangle& reach, const Wanted& is_wanted) {
-    vertex_marks_.clear();
-    for (std::size_t i = 0; i < found_.size() && found_.size() < max_found; ++i) {
-      for (Corner c = 3 * found_[i]; c < 3 * found_[i] + 3; ++c) {
-        if (!vertex_marks_.insert(state_.mesh.vertex(c))) continue;
-        state_.mesh.for_each_corner(state_.mesh.vertex(c), [&](Corner d) {
-          const std::uint32_t f = d / 3;
-          if (!found_marks_.insert(f) || !is_wanted(f) || !reach.meets(state_.mesh.triangle(f))) return true;
-          found_.push_back(f);
-          return true;
-        });
-      }
-    }
-  }
+  void spread(const ReachOfTriangle& reach, const Wanted& is_wanted);
 
-  std::span<const std::uint32_t> draft(std::uint32_t face) {
-    drafted_.assign(1, face);
-    return drafted_;
-  }
-  void take(FaceMask used, std::vector<std::uint32_t>& faces) const {
-    for (; used != 0; used &= used - 1) faces.push_back(cover_.face(std::countr_zero(used)));
-  }
+  std::span<const std::uint32_t> draft(std::uint32_t face);
+  void take(FaceMask used, std::vector<std::uint32_t>& faces) const;
 
   /// Whether clusters as large as that of an original near a face fit into it: else it has no inner ones.
-  [[nodiscard]] bool has_room_for_clusters(const TriangleCorners& face, std::uint32_t near) const {
-    const auto twice_area = [](const TriangleCorners& c) { return length(cross(c[1] - c[0], c[2] - c[0])); };
-    const double perimeter = length(face[1] - face[0]) + length(face[2] - face[1]) + length(face[0] - face[2]);
-    const double incircle = twice_area(face) / perimeter;
-    return 2 * incircle * incircle >= min_incircle * min_incircle * twice_area(original_.corners(near));
-  }
+  [[nodiscard]] bool has_room_for_clusters(const TriangleCorners& face, std::uint32_t near) const;
 
   const DecimationState& state_;
   ForwardCover cover_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "simplify/proof_workers.h"
 
+#include "geometry/boxes.h"
 #include "numeric/tasks.h"
 #include "simplify/proof_worker.h"
 

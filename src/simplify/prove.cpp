@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "numeric/no_index.h"
 #include "numeric/tasks.h"
