@@ -24,13 +24,15 @@ constexpr std::array options_of_whole_meshes = std::to_array<const char*>(
 constexpr std::array options_without_use_for_tiles =
     std::to_array<const char*>({"--align", "--count", "--texture-tolerance", "--texture-size", "--units", "--up"});
 
-/// `is_in_tiles`: with and without --memory.
-void add_options(CLI::App& app, Arguments& arguments, bool is_in_tiles) {
+void add_mesh_options(CLI::App& app, Arguments& arguments, bool is_in_tiles) {
   app.add_option("A", arguments.a, "The original: OFF, OBJ, PLY, STL, GLB or glTF; - for standard input")->required();
   app.add_option(
       "B", arguments.b,
       std::string("The mesh to compare with it; - for standard input") + (is_in_tiles ? "" : "; not with --nearest"));
   add_stream_format(app, "--format", arguments.format, "input");
+}
+
+void add_question_options(CLI::App& app, Arguments& arguments, bool is_in_tiles) {
   const std::string of_shapes =
       "; with --nearest in units of normalised shapes (default: 0.001, or half of an upper bound if that is more)";
   app.add_option("--error-bound", arguments.error_bound,
@@ -43,11 +45,17 @@ void add_options(CLI::App& app, Arguments& arguments, bool is_in_tiles) {
                "Find the worst spot to the error bound and print it; with --tolerance after the decision, which ends "
                "with the first spot beyond");
   app.add_flag("--one-sided", arguments.one_sided, "Only from A to B");
+}
+
+void add_motion_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--transform-b", arguments.transform_b,
                  "Affine map for the vertices of B: 16 numbers, row-major, or a file that holds them");
   app.add_option("--poses", arguments.poses,
                  "Measure, or decide with --tolerance, at each pose of B in this file: a line of 16 numbers for each, "
                  "row-major, rigid. Each pose starts from the results of the one before");
+}
+
+void add_nearest_options(CLI::App& app, Arguments& arguments) {
   CLI::Option* nearest = app.add_option("--nearest", arguments.nearest,
                                         "Instead of B: find the meshes below this folder that are most like A, by the "
                                         "distance after both are moved to the "
@@ -59,7 +67,9 @@ void add_options(CLI::App& app, Arguments& arguments, bool is_in_tiles) {
   app.add_option("--count", arguments.count, "With --nearest: number of meshes to find (default 1)")
       ->needs(nearest)
       ->check(CLI::Range(1, 1000000));
-  app.add_flag("--profile", arguments.profile, "Print culling rates, queries, subdivisions and the time of each phase");
+}
+
+void add_texture_options(CLI::App& app, Arguments& arguments) {
   app.add_flag(
       "--texture", arguments.texture,
       "Also measure how far the texture moves on the surface: the largest distance from a point to the nearest "
@@ -72,6 +82,16 @@ void add_options(CLI::App& app, Arguments& arguments, bool is_in_tiles) {
                  "With --texture: width of the texture, which counts as square, in texels, to print lengths in texels "
                  "of A as well")
       ->check(number_of_texels);
+}
+
+/// `is_in_tiles`: with and without --memory.
+void add_options(CLI::App& app, Arguments& arguments, bool is_in_tiles) {
+  add_mesh_options(app, arguments, is_in_tiles);
+  add_question_options(app, arguments, is_in_tiles);
+  add_motion_options(app, arguments);
+  add_nearest_options(app, arguments);
+  app.add_flag("--profile", arguments.profile, "Print culling rates, queries, subdivisions and the time of each phase");
+  add_texture_options(app, arguments);
   app.add_option(
          "--certificate", arguments.certificate,
          std::string("With --tolerance: write the proof that the distance is within it, for verify_certificate") +

@@ -49,8 +49,7 @@ constexpr std::array options_without_use_for_tiles =
     std::to_array<const char*>({"--output-dir", "--texture-size", "--drop-attributes", "--dry-run", "--units", "--up",
                                 "--batch-merge", "--jobs", "--shard", "--memory-limit"});
 
-/// `is_in_tiles`: with and without --memory.
-void add_options(CLI::App& app, SimplifyArguments& arguments, bool is_in_tiles) {
+void add_mesh_options(CLI::App& app, SimplifyArguments& arguments) {
   app.add_option("IN", arguments.input, "Mesh to simplify: OFF, OBJ, PLY, STL, GLB or glTF; - for standard input");
   app.add_option("OUT", arguments.output,
                  "File for the result; its extension chooses the format; - for standard output, where nothing else is "
@@ -58,6 +57,10 @@ void add_options(CLI::App& app, SimplifyArguments& arguments, bool is_in_tiles) 
   add_stream_format(app, "--format", arguments.format, "input and output");
   add_stream_format(app, "--input-format", arguments.input_format, "input, where it is not that of --format");
   add_stream_format(app, "--output-format", arguments.output_format, "output, where it is not that of --format");
+}
+
+/// How far the result goes.
+void add_limit_options(CLI::App& app, SimplifyArguments& arguments) {
   app.add_option("--tolerance", arguments.tolerance,
                  "Largest symmetric Hausdorff distance to IN: model units, or 0.1% of the bounding-box diagonal");
   auto* faces = app.add_option("--target-faces", arguments.target_faces, "End at this many faces, tolerance permitting")
@@ -68,6 +71,9 @@ void add_options(CLI::App& app, SimplifyArguments& arguments, bool is_in_tiles) 
                  "At a collapse that would exceed the tolerance: skip it and go on, or stop there")
       ->check(CLI::IsMember({"skip", "stop"}))
       ->capture_default_str();
+}
+
+void add_result_options(CLI::App& app, SimplifyArguments& arguments) {
   app.add_option("--levels", arguments.levels,
                  "Smaller tolerances to write levels of detail for as well: T1,T2,...; the finest is OUT_level_0, OUT "
                  "itself the coarsest")
@@ -92,6 +98,13 @@ void add_options(CLI::App& app, SimplifyArguments& arguments, bool is_in_tiles) 
       "--dry-run", arguments.dry_run,
       "Read and check IN, options and outputs as a run does before its work, say what that would take in memory and "
       "time, and write nothing");
+}
+
+/// `is_in_tiles`: with and without --memory.
+void add_options(CLI::App& app, SimplifyArguments& arguments, bool is_in_tiles) {
+  add_mesh_options(app, arguments);
+  add_limit_options(app, arguments);
+  add_result_options(app, arguments);
   add_batch_options(app, arguments.batch);
   add_appearance_options(app, arguments);
   auto* const memory = app.add_option(
