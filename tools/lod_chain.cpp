@@ -29,6 +29,7 @@
 #include "lod/pixel_limit.h"
 #include "lod/tileset.h"
 #include "meshbound/error.h"
+#include "meshbound/mesh_summary.h"
 #include "numeric/sort_unique.h"
 #include "view/view_run.h"
 
@@ -44,17 +45,8 @@ struct Options : DecimationOptions {
   DeviationRequest deviation;
 };
 
-void declare(CLI::App& app, Options& options) {
-  app.add_option("IN", options.input,
-                 "Mesh to make levels of: OFF, OBJ, PLY, STL, GLB or glTF; with --scene leave it out")
-      ->required();
-  app.add_option("DIR", options.folder,
-                 "Folder for lod_0 (the finest), lod_1, ... and chain.json; made when it is not there. Levels of an "
-                 "earlier run in it that are not written again are removed");
-  app.add_option(
-      "--scene", options.scene,
-      "Instead of IN: a scene of instances and cameras (JSON, GLB or glTF); makes the levels that they need, "
-      "and view.json, which says who uses which");
+/// The levels by their tolerances, or by what is seen of them.
+void declare_levels(CLI::App& app, Options& options) {
   app.add_option("--levels", options.levels, "Tolerances: model units, or 0.1% of the bounding-box diagonal: T1,T2,...")
       ->delimiter(',')
       ->allow_extra_args(false);  // so that IN may follow
@@ -71,6 +63,20 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--screen-height", options.screen_height,
                  "With --pixels: height of the screen in pixels (default 1080)");
   app.add_option("--fov", options.fov, "With --pixels: vertical field of view in degrees (default 60)");
+}
+
+void declare(CLI::App& app, Options& options) {
+  app.add_option("IN", options.input,
+                 "Mesh to make levels of: OFF, OBJ, PLY, STL, GLB or glTF; with --scene leave it out")
+      ->required();
+  app.add_option("DIR", options.folder,
+                 "Folder for lod_0 (the finest), lod_1, ... and chain.json; made when it is not there. Levels of an "
+                 "earlier run in it that are not written again are removed");
+  app.add_option(
+      "--scene", options.scene,
+      "Instead of IN: a scene of instances and cameras (JSON, GLB or glTF); makes the levels that they need, "
+      "and view.json, which says who uses which");
+  declare_levels(app, options);
   app.add_option("--format", options.format, "Format of the level files")
       ->check(CLI::IsMember(mesh_formats()))
       ->capture_default_str();
@@ -405,9 +411,7 @@ std::string Run::tileset_text() const {
     error = std::max(error, level.distance.bounds.upper);
     levels.push_back({level.file, error});
   }
-  Eigen::AlignedBox3d box;
-  for (const Triangle& t : original_.mesh.triangles)
-    for (const std::uint32_t v : t) box.extend(original_.mesh.vertices[v]);
+  Eigen::AlignedBox3d box = used_bounding_box(original_.mesh);
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(levels.back().error);  // a level may stand out by that
   box.extend(Eigen::Vector3d(box.min() - margin));
   box.extend(Eigen::Vector3d(box.max() + margin));

@@ -56,8 +56,7 @@ void print_volume(std::size_t index, const PenetrationVolume& volume, double dia
   print_line("volume " + std::to_string(index), "depth " + interval(volume.depth));
   print_line("", share_of_diagonal(volume.depth, diagonal));
   const auto spot = [](const SurfacePoint& p) {
-    return "(" + exact_number(p.position.x()) + " " + exact_number(p.position.y()) + " " +
-           exact_number(p.position.z()) + "), triangle " + std::to_string(p.triangle);
+    return exact_point(p.position) + ", triangle " + std::to_string(p.triangle);
   };
   print_line("", "deepest on A " + spot(volume.on_a));
   print_line("", "        on B " + spot(volume.on_b));
