@@ -413,11 +413,8 @@ TEST_F(DeviationTool, ReportOfManyLevelsStaysBelow20MB) {
   const TriangleMesh original = scattered_triangles(60'000), result = reference::unit_square(1);
   tools::DeviationRequest request;
   request.report = in("r.html");
-  tools::DeviationSubject subject;
-  subject.original = &original;
-  subject.result = &result;
+  tools::DeviationSubject subject(original, result, 1000, {}, {}, nullptr);
   subject.levels.resize(24, {reference::unit_square(1), {}});
-  subject.scale.end = 1000;
   subject.measurement.obstacle = "of a test";
   tools::DeviationOutputs outputs(request);
   outputs.measure(subject, {});

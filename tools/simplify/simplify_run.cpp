@@ -118,8 +118,7 @@ void Run::read() {
   report_.seconds.read = clock_.lap();
 }
 
-/// Sets the threads by --memory. The limit itself holds since the start of the
-/// process.
+/// Sets the threads by --memory. The limit itself holds since the start of the process.
 void Run::plan_memory() {
   const TileOptions tiles{options_.tile_triangles};
   use_threads(threads_within(parse_memory("--memory", options_.memory), "--memory " + options_.memory,
