@@ -314,7 +314,7 @@ std::string DecimationRun::obstacle_of(const GatedOutput& output, double toleran
 double DecimationRun::max_rounding(const GatedOutput& output) const {
   // Half a step of the floats on three axes: less than a step.
   constexpr double step_of_floats = 0x1p-23, smallest_float = 0x1p-149;
-  return rounding_ + (rounds_to_floats(output) ? step_of_floats * largest_coordinate() + smallest_float : 0);
+  return original_.rounding + (rounds_to_floats(output) ? step_of_floats * largest_coordinate() + smallest_float : 0);
 }
 
 std::string DecimationRun::obstacle_of_original(GatedOutput& output, double tolerance) {

@@ -73,7 +73,7 @@ void add_limit_options(CLI::App& app, SimplifyArguments& arguments) {
       ->capture_default_str();
 }
 
-void add_result_options(CLI::App& app, SimplifyArguments& arguments) {
+void add_result_options(CLI::App& app, SimplifyArguments& arguments, bool is_in_tiles) {
   app.add_option("--levels", arguments.levels,
                  "Smaller tolerances to write levels of detail for as well: T1,T2,...; the finest is OUT_level_0, OUT "
                  "itself the coarsest")
@@ -104,7 +104,7 @@ void add_result_options(CLI::App& app, SimplifyArguments& arguments) {
 void add_options(CLI::App& app, SimplifyArguments& arguments, bool is_in_tiles) {
   add_mesh_options(app, arguments);
   add_limit_options(app, arguments);
-  add_result_options(app, arguments);
+  add_result_options(app, arguments, is_in_tiles);
   add_batch_options(app, arguments.batch);
   add_appearance_options(app, arguments);
   auto* const memory = app.add_option(

@@ -38,6 +38,30 @@ double rough_area(const DomainPolygon& polygon) {
   return std::fabs(doubled) / 2;
 }
 
+/// On which side of the line from p to q a point lies: 1 left, -1 right, 0 on it. Empty where doubles cannot tell.
+std::optional<int> certain_side(const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Eigen::Vector2d& point) {
+  if (point == p || point == q) return 0;
+  const Eigen::Vector2d way = q - p, to = point - p;
+  const double left = way.x() * to.y(), right = way.y() * to.x(), size = std::fabs(left) + std::fabs(right);
+  // Four differences, two products, their difference: less than 4 roundings of `size`; none underflows.
+  const bool is_certain = std::fabs(left - right) > 0x1p-50 * size && size > 0x1p-900 && size < 0x1p900;
+  if (!is_certain) return std::nullopt;
+  return left > right ? 1 : -1;
+}
+
+/// Whether an edge of `a` has all of `b` on its other side or on its line, by its corners, so that no area is common.
+bool has_separating_edge(const TextureSurface::Triangle& a, const TextureSurface::Triangle& b) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector2d &p = a.coordinates[k], &q = a.coordinates[(k + 1) % 3];
+    const int inside = certain_side(p, q, a.coordinates[(k + 2) % 3]).value_or(0);
+    const bool separates = inside != 0 && std::all_of(b.coordinates.begin(), b.coordinates.end(), [&](const auto& uv) {
+                             return certain_side(p, q, uv).value_or(inside) != inside;
+                           });
+    if (separates) return true;
+  }
+  return false;
+}
+
 class TextureCheck {
  public:
   TextureCheck(const TextureSurface& source, const TextureSurface& target, double tolerance, const Section& section,
@@ -175,7 +199,7 @@ class TextureCheck {
   }
 
   void check_uncovered(const DomainPolygon& piece, const std::vector<DomainPolygon>& rest) {
-    if (!near_) near_ = index_.near(*at_);
+    if (!near_) near_ = may_cover();
     for (const TextureSurface::Triangle* const triangle : *near_) {
       work_.add_clip();  // where it has no area nothing is clipped
       require_work();
@@ -194,6 +218,17 @@ class TextureCheck {
     }
     has_uncovered_ = true;
     for (const DomainPolygon& polygon : rest) uncovered_area_ += 2 * at_->area * rough_area(polygon);
+  }
+
+  /// The triangles that may have an area of the texture in common with the triangle at hand, or any point of it where it
+  /// has no area. Around a vertex of thousands of triangles nearly all boxes meet, but no areas.
+  [[nodiscard]] std::vector<const TextureSurface::Triangle*> may_cover() const {
+    std::vector<const TextureSurface::Triangle*> result = index_.near(*at_);
+    const auto is_apart = [&](const TextureSurface::Triangle* triangle) {
+      return !is_flat_ && (has_separating_edge(*at_, *triangle) || has_separating_edge(*triangle, *at_));
+    };
+    result.erase(std::remove_if(result.begin(), result.end(), is_apart), result.end());
+    return result;
   }
 
   /// Whether a triangle covers any point of the piece, its border included.

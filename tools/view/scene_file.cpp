@@ -134,6 +134,8 @@ SceneFile read_scene(const std::string& path) {
     document = SceneJson::parse(file);
   } catch (const SceneJson::parse_error& error) {
     throw InvalidInput(path + ": byte " + std::to_string(error.byte) + ": this is no JSON");
+  } catch (const SceneJson::exception&) {
+    throw InvalidInput(path + ": holds a number beyond the range of doubles");
   }
   const Place root(document, path + ": ");
   root.object({"schema", "pixels", "screen", "models", "instances", "cameras"});

@@ -27,10 +27,15 @@ class GuardedFace {
             {mesh.position(mesh.start(moved)), mesh.position(mesh.end(moved)), mesh.position(mesh.apex(moved))}) {
     const Corner across = mesh.twin(next_corner(moved));
     if (!is_thin_ || across == no_index) return;
-    if (may_look_at(across / 3))
-      beside_ = normal(mesh.triangle(across / 3));
-    else
+    if (!may_look_at(across / 3)) {
       stays_thin_ = true;
+      return;
+    }
+    beside_ = normal(mesh.triangle(across / 3));
+    const TriangleCorners before = mesh.triangle(moved / 3);
+    const double longest = squared_longest_edge(before), lengths = length(beside_) * length(normal_);
+    const bool has_direction = squared_area_ >= min_shape * min_shape * longest * longest && lengths > 0;
+    if (has_direction) least_cosine_ = std::min(least_cosine_, dot(beside_, normal_) / lengths);
   }
 
   [[nodiscard]] bool allows(const TriangleCorners& after) const {
@@ -46,7 +51,8 @@ class GuardedFace {
 
  private:
   static constexpr double min_cosine = 0.1;  ///< between the normals of a face before and after
-  /// Between the normals of a face that was thin and of the one beside it: they may enclose 60 degrees.
+  /// Between the normals of a face that was thin and of the one beside it: they may enclose 60 degrees, or less where
+  /// they did before, as needles of a curved surface do.
   static constexpr double min_cosine_beside = -0.5;
   /// A face keeps its area where its corner moves parallel to the edge across, and rounding must not refuse that. This
   /// is the least share that is kept, of the squared area.
@@ -56,7 +62,7 @@ class GuardedFace {
   static constexpr double min_shape = 1e-4, min_shape_with_normal = 1e-3;
 
   [[nodiscard]] bool folds_back(Vec3 turned) const {
-    return dot(beside_, turned) < min_cosine_beside * length(beside_) * length(turned);
+    return dot(beside_, turned) < least_cosine_ * length(beside_) * length(turned);
   }
   static Vec3 normal(const TriangleCorners& c) { return cross(c[1] - c[0], c[2] - c[0]); }
   static bool is_thin(double squared_area, double squared_longest) {
@@ -68,6 +74,7 @@ class GuardedFace {
 
   Vec3 normal_, beside_;     ///< of any length; `beside_` is 0 where no face is
   double squared_area_ = 0;  ///< of twice the area
+  double least_cosine_ = min_cosine_beside;
   bool is_thin_ = false, stays_thin_ = false;
 };
 
