@@ -230,6 +230,20 @@ TEST(ManifoldSoup, KeepsTheOrientationOfTheFirstOfTwo) {
   EXPECT_EQ(result.twin[0][1], 5U);
 }
 
+/// The two may be some of many that close solids.
+TEST(ManifoldSoup, TurnsNoTriangleOverAcrossAnEdgeAtTheRim) {
+  const TriangleMesh soup = mesh_of({{0, 1, 2}, {0, 1, 3}, {4, 5, 6}, {5, 4, 7}});
+  const auto with_rim = [&](const std::vector<bool>& at_rim) {
+    return manifold_soup(soup, meshbound::first_at_position(meshbound::positions_of(soup)), {}, {}, at_rim);
+  };
+  const ManifoldSoup result = with_rim({true, true, false, false, true, true, false, false});
+  EXPECT_EQ(result.twin[0][0], meshbound::no_index);
+  EXPECT_EQ(result.vertex_of[result.faces[1][1]], 1U);
+  EXPECT_EQ(result.twin[2][0], 9U) << "opposite directions need no turn";
+  for (const std::vector<bool>& at_rim : {std::vector<bool>(), {true, false, true, true, false, false, false, false}})
+    EXPECT_EQ(with_rim(at_rim).twin[0][0], 5U);
+}
+
 TEST(ManifoldSoup, OrientsEachComponentByItself) {
   const ManifoldSoup result = checked(mesh_of({{0, 1, 2}, {1, 2, 3}, {1, 0, 4}, {5, 6, 7}, {7, 6, 8}}));
   EXPECT_EQ(result.faces[3], (Triangle{5, 6, 7}));

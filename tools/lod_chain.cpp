@@ -343,6 +343,7 @@ void Run::note_level(std::size_t index, EndedBy ended_by, DecidedBy decided_by) 
   entry.sha256 = output.checksum();
   entry.vertices = output.summary().vertices;
   entry.faces = output.summary().faces;
+  entry.turned_faces = output.turned_faces();
   entry.distance = output.distance();
   entry.lines = line_report(output, entry.tolerance);
   entry.texture = texture_report(output);
@@ -440,6 +441,7 @@ void Run::print_summary() const {
     if (level.stopped_by == to_string(EndedBy::Rounding)) print_line("", rounding_reason(outputs_[i], level.tolerance));
     print_interval("", "distance ", level.distance.bounds, original_.diagonal);
     print_lines(level.lines, original_.diagonal);
+    print_turned(level.turned_faces);
     if (level.normals) print_normals(*level.normals);
     if (level.texture) print_texture(*level.texture, {"original to level", "level to original"}, original_.diagonal);
     if (level.view_distance)

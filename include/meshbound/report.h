@@ -147,6 +147,7 @@ struct LevelReport {
   std::optional<TextureReport> texture = {};      ///< where it was asked for
   std::optional<NormalReport> normals = {};       ///< where it was asked for
   std::string sha256 = {};                        ///< of the file, hexadecimal; empty: not computed
+  std::size_t turned_faces = 0;                   ///< see `SimplifiedLevel`
 };
 
 /// A proof that was written for `verify_certificate`.
@@ -209,6 +210,7 @@ struct SimplifyReport {
     double total = 0;                                     ///< from the start of the tool
   } seconds;                                              ///< of the run
   std::size_t locked_vertices = 0;                        ///< that options kept from moving
+  std::size_t turned_faces = 0;                           ///< see `SimplifiedLevel`
   std::optional<std::size_t> resumed_tiles = {};          ///< that an earlier run had finished, where it was resumed
   std::optional<MemoryReport> memory = {};                ///< where there was a limit
   int threads = 1;                                        ///< that were used

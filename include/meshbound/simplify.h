@@ -111,6 +111,11 @@ struct SimplifyOptions {
   /// each, as a decal and what it lies on, or both sides of a sheet; of those with equal numbers that show the same
   /// side one stays. Empty: one stays of all, unless texture coordinates or normals tell them apart.
   std::vector<std::uint32_t> looks;
+  /// Every triangle of a result shows the side that its original shows. Where two neighbours are wound in opposite
+  /// directions, their edge is a feature line, and so are borders then. Texture coordinates and a normal tolerance keep
+  /// sides as well. False: neighbours are turned over until they agree (`SimplifiedLevel::turned_faces`), so that scans
+  /// of random winding become one surface.
+  bool keep_sides = false;
   /// How far the texture may move on the surface (`texture_deviation`), model units: collapses that move samples of the
   /// original further are refused. This is no proof, and the verdict of a level does not include it. Needs
   /// `texture_coordinates` where it is finite.
@@ -149,6 +154,7 @@ struct SimplifiedLevel {
   std::vector<std::uint32_t> source_triangle;
   /// By triangle of `mesh`, where `SimplifyOptions::texture_coordinates` are given: those of its corners.
   std::vector<std::array<Eigen::Vector2d, 3>> texture_coordinates;
+  std::size_t turned_faces = 0;             ///< triangles that face the other way than their `source_triangle`
   std::vector<Edge> lines;                  ///< edges of `mesh` that are lines, if the mesh has feature lines
   EndedBy ended_by = EndedBy::NothingFits;  ///< why decimation did not go further
   /// Distance between the original (a) and `mesh` (b), with the verdict on `tolerance`.

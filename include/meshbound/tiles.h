@@ -25,9 +25,9 @@ struct TileOptions {
 ///
 /// Results are the same to the bit for any number of threads, but for `time_limit` and `cancel`. Takes one tolerance:
 /// throws `InvalidInput` for levels, targets, `OnExceed::Stop`, `prune`, feature lines and angles, tolerances of faces,
-/// texture coordinates, normal tolerances, looks and certificates; as `simplify_with_bound` otherwise. `Effort::High`
-/// refines inside the first tiles only. Memory: about 80 bytes for each triangle of the original, the original
-/// included, and the tiles under work. Expected O(n log n) time.
+/// texture coordinates, sides to keep, normal tolerances, looks and certificates; as `simplify_with_bound` otherwise.
+/// `Effort::High` refines inside the first tiles only. Memory: about 80 bytes for each triangle of the original, the
+/// original included, and the tiles under work. Expected O(n log n) time.
 [[nodiscard]] SimplifyResult simplify_in_tiles(const TriangleMesh& original, const SimplifyOptions& options,
                                                const TileOptions& tiles = {});
 

@@ -140,6 +140,7 @@ void SceneRun::append_copy(const Group& of, const SceneCopy& copy, const Simplif
     level.texture_coordinates.push_back(corners);
   }
   for (const auto& [a, b] : part.lines) level.lines.push_back({a + first, b + first});
+  level.turned_faces += part.turned_faces;
 }
 
 void SceneRun::append(const Group& of, const SimplifiedLevel& part, SimplifiedLevel& level) const {
@@ -154,6 +155,7 @@ void SceneRun::append(const Group& of, const SimplifiedLevel& part, SimplifiedLe
   level.texture_coordinates.insert(level.texture_coordinates.end(), part.texture_coordinates.begin(),
                                    part.texture_coordinates.end());
   for (const auto& [a, b] : part.lines) level.lines.push_back({a + first, b + first});
+  level.turned_faces += part.turned_faces;
 }
 
 SimplifiedLevel SceneRun::unchanged(const Group& of) const {

@@ -19,6 +19,7 @@ report::Json level_json(std::size_t index, const LodReport::Level& level, double
   if (!level.sha256.empty()) json["sha256"] = level.sha256;
   json["vertices"] = level.vertices;
   json["faces"] = level.faces;
+  json["turned_faces"] = level.turned_faces;
   json["decided_by"] = to_string(level.decided_by);
   json["stopped_by"] = level.stopped_by;
   json["distance"] = symmetric(level.distance);

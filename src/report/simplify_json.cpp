@@ -27,6 +27,7 @@ std::string to_json(const SimplifyReport& from) {
   json["driver"] = from.driver;
   json["pruned"] = {{"components", from.pruned.components}, {"faces", from.pruned.faces}};
   json["locked_vertices"] = from.locked_vertices;
+  json["turned_faces"] = from.turned_faces;
   json["input"] = {{"split", from.input.split},
                    {"dropped_triangles", from.input.dropped_triangles},
                    {"kept_triangles", from.input.kept_triangles}};
@@ -40,6 +41,7 @@ std::string to_json(const SimplifyReport& from) {
     entry["path"] = level.path;
     if (!level.sha256.empty()) entry["sha256"] = level.sha256;
     entry["faces"] = level.faces;
+    entry["turned_faces"] = level.turned_faces;
     entry["decided_by"] = to_string(level.decided_by);
     entry["distance"] = symmetric(level.distance);
     add_appearance(level, from.original.summary.bbox_diagonal, entry);

@@ -66,15 +66,16 @@ bool is_feature(const ArrayMesh& mesh, Corner edge, double angle) {
 
 }  // namespace
 
-Decimation::Decimation(const TriangleMesh& original, const SimplifyOptions& options, const StopToken& stop)
-    : Decimation(original, nullptr, options, stop) {}
+Decimation::Decimation(const TriangleMesh& original, const SimplifyOptions& options, const StopToken& stop,
+                       const std::vector<bool>& at_rim)
+    : Decimation(original, nullptr, options, stop, at_rim) {}
 
 Decimation::Decimation(const TriangleMesh& original, const ProvenMesh& start, const SimplifyOptions& options,
-                       const StopToken& stop)
-    : Decimation(original, &start, options, stop) {}
+                       const StopToken& stop, const std::vector<bool>& at_rim)
+    : Decimation(original, &start, options, stop, at_rim) {}
 
 Decimation::Decimation(const TriangleMesh& original, const ProvenMesh* start, const SimplifyOptions& options,
-                       const StopToken& stop)
+                       const StopToken& stop, const std::vector<bool>& at_rim)
     : start_(start),
       start_vertices_(start != nullptr ? start->mesh.vertices.size() : original.vertices.size()),
       order_(spatial_order(original, {options.threads, stop})),
@@ -89,7 +90,7 @@ Decimation::Decimation(const TriangleMesh& original, const ProvenMesh* start, co
   if (options.precision == Precision::Single && largest_.maxCoeff() > std::numeric_limits<float>::max() / 2)
     throw InvalidInput("a coordinate is beyond the range of single precision: rescale the mesh, or keep doubles");
   stop.check();
-  make_state(stop);
+  make_state(stop, at_rim);
 }
 
 namespace {
@@ -130,7 +131,7 @@ ArrayMesh take_mesh(ManifoldSoup& soup, std::span<const Vec3> points) {
 
 }  // namespace
 
-void Decimation::make_state(const StopToken& stop) {
+void Decimation::make_state(const StopToken& stop, const std::vector<bool>& at_rim) {
   check_sizes(options_, start_vertices_, original_.triangles.size());
   std::vector<TriangleNeighbours> neighbours = edge_neighbours(tree_, vertices_, order_.triangles, threads());
   stop.check();
@@ -140,7 +141,7 @@ void Decimation::make_state(const StopToken& stop) {
   with_team(threads(), [&] {
     do_both(
         [&] {
-          soup = soup_of_start(neighbours);
+          soup = soup_of_start(neighbours, at_rim);
           mesh = take_mesh(soup, start_points());
         },
         [&] {
@@ -156,11 +157,11 @@ void Decimation::make_state(const StopToken& stop) {
   else
     start_as_original(std::move(original), std::move(soup), std::move(mesh));
   stop.check();
-  if (keeps_sides()) note_turned_faces();
+  if (keeps_sides() || split_) note_turned_faces();
   if (has_lines()) set_lines();
   if (!options_.texture_coordinates.empty()) set_texture();
   if (options_.normal_tolerance) set_turns();
-  if (keeps_sides()) state_->proven_changes.emplace(state_->mesh.vertex_count());
+  if (bounds_appearance()) state_->proven_changes.emplace(state_->mesh.vertex_count());
   state_->keeps_positions = options_.placements == CollapsePlacements::Subset;
   state_->lock(locked());
   locked_vertices_ = static_cast<std::size_t>(std::count(state_->locked.begin(), state_->locked.end(), 1));
@@ -180,11 +181,18 @@ std::vector<std::uint32_t> Decimation::index_of_caller_triangle() const {
   return index;
 }
 
-ManifoldSoup Decimation::soup_of_start(std::span<const TriangleNeighbours> neighbours) {
+ManifoldSoup Decimation::soup_of_start(std::span<const TriangleNeighbours> neighbours,
+                                       const std::vector<bool>& at_rim) {
+  std::vector<bool> at_rim_here(at_rim.empty() ? 0 : start_points().size());  // by the vertex numbers here
+  for (std::uint32_t v = 0; v < at_rim_here.size(); ++v) at_rim_here[v] = at_rim[caller_vertex(v)];
   std::vector<std::uint32_t> first = std::exchange(first_of_start_, {});
   const MeshView soup = view_of(start_points(), start_triangles());
-  if (start_ != nullptr) return manifold_soup(soup, std::move(first), {}, {});
-  return manifold_soup(soup, std::move(first), neighbours, looks_of(options_, order_.triangle), order_.triangle);
+  if (start_ != nullptr) {  // where solids that touch have come to share a triangle, each needs its own
+    const std::vector<std::uint32_t> keeps_backs(start_triangles().size(), 0);
+    return manifold_soup(soup, std::move(first), {}, keeps_backs, {}, at_rim_here);
+  }
+  return manifold_soup(soup, std::move(first), neighbours, looks_of(options_, order_.triangle), order_.triangle,
+                       at_rim_here);
 }
 
 void Decimation::start_as_original(OriginalOfDecimation original, ManifoldSoup soup, ArrayMesh mesh) {
@@ -236,7 +244,27 @@ std::vector<std::uint8_t> Decimation::locked() const {
     for (std::uint32_t v = 0; v < locked.size(); ++v) locked[v] = locked_at[*first_at(mesh.position(v))];
   }
   lock_features(locked);
+  if (start_ != nullptr) lock_cuts(locked);
   return locked;
+}
+
+/// Locks both ends of edges that the manifold was cut along, for their faces could not be paired. The start has come of
+/// a decimation that kept it closed there, so neither side may leave the other.
+void Decimation::lock_cuts(std::vector<std::uint8_t>& locked) const {
+  const ArrayMesh& mesh = state_->mesh;
+  std::vector<std::tuple<std::uint32_t, std::uint32_t, Corner>> borders;  // by the first vertices at their ends
+  for (Corner c = 0; c < 3 * mesh.face_count(); ++c) {
+    if (mesh.twin(c) != no_index) continue;
+    const std::uint32_t p = *first_at(mesh.position(mesh.start(c))), q = *first_at(mesh.position(mesh.end(c)));
+    borders.emplace_back(std::min(p, q), std::max(p, q), c);
+  }
+  std::sort(borders.begin(), borders.end());
+  for (std::size_t i = 1; i < borders.size(); ++i) {
+    const auto& [p, q, c] = borders[i];
+    const auto& [p_before, q_before, before] = borders[i - 1];
+    if (p != p_before || q != q_before) continue;
+    for (const Corner side : {c, before}) locked[mesh.start(side)] = locked[mesh.end(side)] = 1;
+  }
 }
 
 bool Decimation::take_back(std::span<const Refuted> refuted) {
@@ -293,8 +321,9 @@ std::vector<std::uint8_t> Decimation::marked_edges() const {
 bool Decimation::is_seam(Corner edge) const {
   const ArrayMesh& mesh = state_->mesh;
   const Corner twin = mesh.twin(edge);
-  if (options_.texture_coordinates.empty() || twin == no_index) return false;
-  if (is_turned_over_[edge / 3] != is_turned_over_[twin / 3]) return true;
+  if (twin == no_index) return false;
+  if (keeps_sides() && is_turned_over_[edge / 3] != is_turned_over_[twin / 3]) return true;
+  if (options_.texture_coordinates.empty()) return false;
   const auto triangle = [&](Corner c) { return order_.triangle[state_->source_triangle[c / 3]]; };
   if (!options_.materials.empty() && options_.materials[triangle(edge)] != options_.materials[triangle(twin)])
     return true;
@@ -348,9 +377,10 @@ void Decimation::set_texture_tolerance(double tolerance) {
 void Decimation::note_turned_faces() {
   const ArrayMesh& mesh = state_->mesh;
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {  // one that is turned over keeps its first corner
-    const Vec3 second = vertices_[order_.triangles[state_->source_triangle[f]][1]];
+    const Vec3 second = start_points()[start_triangles()[state_->source_triangle[f]][1]];
     is_turned_over_.push_back(same_position(mesh.position(mesh.start(3 * f + 1)), second) ? 0 : 1);
   }
+  has_turned_faces_ = std::find(is_turned_over_.begin(), is_turned_over_.end(), 1) != is_turned_over_.end();
 }
 
 void Decimation::set_lines() {
@@ -505,6 +535,7 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
   mesh = {};
   into.source_vertex.clear();
   into.source_triangle.clear();
+  into.turned_faces = 0;
   into.lines.clear();
   into.texture_coordinates.clear();
   std::vector<std::uint32_t> index(state.mesh.vertex_count());
@@ -518,7 +549,9 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
     mesh.triangles.push_back({index[corners[0]], index[corners[1]], index[corners[2]]});
     into.source_triangle.push_back(caller_triangle(state.source_triangle[f]));
     if (state.texture) into.texture_coordinates.push_back(state.texture->of(f));
-    if (keeps_sides() && is_turned_over_[f] != 0) {
+    const bool is_turned_over = has_turned_faces_ && is_turned_over_[f] != 0;
+    if (is_turned_over && !keeps_sides()) ++into.turned_faces;
+    if (is_turned_over && keeps_sides()) {
       std::swap(mesh.triangles.back()[1], mesh.triangles.back()[2]);
       if (state.texture) std::swap(into.texture_coordinates.back()[1], into.texture_coordinates.back()[2]);
     }
@@ -539,6 +572,15 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
     into.source_triangle.push_back(order_.triangle[t]);
     if (state.texture) into.texture_coordinates.push_back(options_.texture_coordinates[order_.triangle[t]]);
   }
+}
+
+std::vector<std::uint32_t> Decimation::turned_faces() const {
+  std::vector<std::uint32_t> turned;
+  if (!has_turned_faces_ || keeps_sides()) return turned;
+  const std::vector<std::uint32_t> faces = faces_in_order();
+  for (std::uint32_t i = 0; i < faces.size(); ++i)
+    if (is_turned_over_[faces[i]] != 0) turned.push_back(i);
+  return turned;
 }
 
 void Decimation::current_proof(ProvenMesh& into) const {

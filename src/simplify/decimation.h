@@ -17,13 +17,15 @@ namespace meshbound {
 /// One decimation under growing tolerances: the state in its working frame, and the maps into that frame and back.
 class Decimation {
  public:
-  /// `original` and `options` must outlive this. Throws `Stopped`.
-  Decimation(const TriangleMesh& original, const SimplifyOptions& options, const StopToken& stop);
+  /// `original` and `options` must outlive this. `at_rim`: by vertex of the start, or empty (see `manifold_soup`).
+  /// Throws `Stopped`.
+  Decimation(const TriangleMesh& original, const SimplifyOptions& options, const StopToken& stop,
+             const std::vector<bool>& at_rim = {});
   /// Continues from `start`, which must outlive this. `SimplifyOptions::locked_vertices` are then by the vertices of
   /// `start`, and the sources of a result refer to `start` instead of the original. `start` has no lines and no
   /// tolerances of faces.
   Decimation(const TriangleMesh& original, const ProvenMesh& start, const SimplifyOptions& options,
-             const StopToken& stop);
+             const StopToken& stop, const std::vector<bool>& at_rim = {});
 
   /// Decimates until nothing fits, `target_faces` are left or `stop` says so. `tolerance` in model units, not smaller
   /// than in the call before.
@@ -42,6 +44,8 @@ class Decimation {
   void current_mesh(SimplifiedLevel& into) const;
   /// The proof of `current_mesh`, without the triangles of the original that it contains unchanged.
   void current_proof(ProvenMesh& into) const;
+  /// The triangles of `current_mesh` that face the other way than in the start, ascending.
+  [[nodiscard]] std::vector<std::uint32_t> turned_faces() const;
   [[nodiscard]] CollapseCounts counts() const { return threads_->counts(); }
   void describe(SimplifyResult& result) const;
   /// Edges of the original that are feature lines, by the original's own vertex numbers.
@@ -49,9 +53,10 @@ class Decimation {
 
  private:
   Decimation(const TriangleMesh& original, const ProvenMesh* start, const SimplifyOptions& options,
-             const StopToken& stop);
-  void make_state(const StopToken& stop);
-  [[nodiscard]] ManifoldSoup soup_of_start(std::span<const TriangleNeighbours> neighbours);
+             const StopToken& stop, const std::vector<bool>& at_rim);
+  void make_state(const StopToken& stop, const std::vector<bool>& at_rim);
+  [[nodiscard]] ManifoldSoup soup_of_start(std::span<const TriangleNeighbours> neighbours,
+                                           const std::vector<bool>& at_rim);
   void start_as_original(OriginalOfDecimation original, ManifoldSoup soup, ArrayMesh mesh);
   void go_on_from_start(OriginalOfDecimation original, ManifoldSoup soup, ArrayMesh mesh);
   [[nodiscard]] const std::vector<Triangle>& start_triangles() const {
@@ -71,11 +76,15 @@ class Decimation {
   [[nodiscard]] std::optional<std::uint32_t> first_at(Vec3 p) const;
   [[nodiscard]] std::vector<std::uint8_t> locked() const;
   void lock_features(std::vector<std::uint8_t>& locked) const;
+  void lock_cuts(std::vector<std::uint8_t>& locked) const;
   [[nodiscard]] bool has_lines() const {
-    return options_.line_tolerance || !options_.feature_edges.empty() || !options_.texture_coordinates.empty();
+    return options_.line_tolerance || !options_.feature_edges.empty() || !options_.texture_coordinates.empty() ||
+           (options_.keep_sides && has_turned_faces_);
   }
   /// Whether the side of a triangle that shows matters.
-  [[nodiscard]] bool keeps_sides() const {
+  [[nodiscard]] bool keeps_sides() const { return options_.keep_sides || bounds_appearance(); }
+  /// Whether changes may be taken back for what a measurement of texture or normals finds.
+  [[nodiscard]] bool bounds_appearance() const {
     return !options_.texture_coordinates.empty() || options_.normal_tolerance.has_value();
   }
   void set_lines();
@@ -108,8 +117,9 @@ class Decimation {
   std::optional<DecimationThreads> threads_;
   std::size_t dropped_triangles_ = 0, locked_vertices_ = 0, pruned_components_ = 0, pruned_faces_ = 0;
   std::vector<Edge> lines_;  ///< of the original, by its own numbers
-  /// By face, if `keeps_sides`: its corners run the other way than in the original.
+  /// By face, if `keeps_sides` or the start was split: its corners run the other way than in the start.
   std::vector<std::uint8_t> is_turned_over_;
+  bool has_turned_faces_ = false;
   bool split_ = false, below_rounding_ = false;
 };
 

@@ -34,6 +34,7 @@ void check_for_tiles(const SimplifyOptions& options) {
   refuse(!options.face_tolerances.empty(), "tolerances of triangles");
   refuse(!options.texture_coordinates.empty(), "texture coordinates");
   refuse(!options.looks.empty(), "looks of triangles");
+  refuse(options.keep_sides, "the sides of triangles kept");
   refuse(options.normal_tolerance.has_value(), "a normal tolerance");
   refuse(options.certificate, "a certificate");
 }

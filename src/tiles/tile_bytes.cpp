@@ -78,6 +78,7 @@ class TileCoder {
     steps(output_.kept, originals, originals);
     vertices();
     triangles();
+    steps(output_.turned, output_.source_triangle.size(), output_.source_triangle.size());
     covers();
   }
 

@@ -45,8 +45,8 @@ TileOutput simplify_tile(const TileInput& input, const SimplifyOptions& options,
   of_tile.locked_vertices = input.locked;
   of_tile.progress = {};
   try {
-    Decimation decimation = input.start ? Decimation(input.original, *input.start, of_tile, stop)
-                                        : Decimation(input.original, of_tile, stop);
+    Decimation decimation = input.start ? Decimation(input.original, *input.start, of_tile, stop, input.at_rim)
+                                        : Decimation(input.original, of_tile, stop, input.at_rim);
     const EndedBy ended_by = decimation.run(options.tolerance, 0, stop);
     if (ended_by == EndedBy::Rounding) return as_it_was(input, options, ended_by);
     TileOutput output;
@@ -57,6 +57,7 @@ TileOutput simplify_tile(const TileInput& input, const SimplifyOptions& options,
     output.proven.mesh = std::move(level.mesh);
     output.source_vertex = std::move(level.source_vertex);
     output.source_triangle = std::move(level.source_triangle);
+    output.turned = decimation.turned_faces();
     output.ended_by = ended_by;
     output.counts = decimation.counts();
     SimplifyResult facts;

@@ -14,6 +14,7 @@ struct TileInput {
   TriangleMesh original;
   std::optional<ProvenMesh> start;  ///< absent: the original itself
   std::vector<bool> locked;         ///< by vertex of the start
+  std::vector<bool> at_rim;         ///< by vertex of the start: the whole mesh may have more triangles around it
 };
 
 /// A tile that has been simplified.
@@ -22,6 +23,8 @@ struct TileOutput {
   std::vector<std::uint32_t> source_vertex;    ///< by vertex of `proven.mesh`: the vertex of the start
   std::vector<std::uint32_t> source_triangle;  ///< by triangle of `proven.mesh`: the triangle of the start
   std::vector<std::uint32_t> kept;             ///< originals that are part of the result as they are, beside the mesh
+  std::vector<std::uint32_t>
+      turned;  ///< triangles of `proven.mesh` that face the other way than in the start, ascending
   EndedBy ended_by = EndedBy::NothingFits;
   CollapseCounts counts;
   std::size_t dropped_triangles = 0;  ///< as in `SimplifyResult`

@@ -90,8 +90,9 @@ class TiledMesh::Jobs : public TileJobs {
  private:
   std::string run(std::size_t job, bool packs) {
     TileNumbers numbers;
-    MeshPart part = mesh_.find_numbers(static_cast<std::uint32_t>(job), numbers);
-    TileOutput output = how_.simplify(mesh_.input_of(part, numbers));
+    const auto tile = static_cast<std::uint32_t>(job);
+    MeshPart part = mesh_.find_numbers(tile, numbers);
+    TileOutput output = how_.simplify(mesh_.input_of(tile, part, numbers));
     std::string bytes;
     if (packs) bytes = packed_tile(output, start_of(std::move(part), numbers));
     tiles_[job] = mesh_.take(numbers, std::move(output));
@@ -177,7 +178,14 @@ std::vector<std::uint8_t> TiledMesh::vertices_near_seams(int rings) const {
       for (const std::uint32_t v : corners) is_near[v] = 1;
     }
   }
+  spread(is_near);
   return is_near;
+}
+
+/// Marks all vertices at a position where one is marked.
+void TiledMesh::spread(std::vector<std::uint8_t>& marks) const {
+  for (std::uint32_t v = 0; v < position_.size(); ++v) marks[position_[v]] |= marks[v];
+  for (std::uint32_t v = 0; v < position_.size(); ++v) marks[v] = marks[position_[v]];
 }
 
 /// By vertex, how many originals it stands for, and as many as take the memory of its triangles.
@@ -206,22 +214,26 @@ void TiledMesh::cut_near_seams(const Pass& how, std::span<const std::uint32_t> w
   const std::vector<std::uint8_t> is_near = vertices_near_seams(how.rings);
   ItemStore<CutItem> items(original_.space());
   for (std::uint32_t v = 0; v < is_near.size(); ++v)
-    if (is_near[v] != 0) items.append({to_vec3(proven_.mesh.vertices[v]), v, weights[v]});
+    if (is_near[v] != 0 && joined(v) == v) items.append({to_vec3(proven_.mesh.vertices[v]), v, weights[v]});
   cut_into_tiles(std::move(items), how.max_weight, how.cut, original_.space(), use);
 }
 
 /// Tiles join vertices at one position, and any of them may be the one that is locked.
 void TiledMesh::spread_locks() {
-  for (std::uint32_t v = 0; v < locked_.size(); ++v)
-    if (locked_[v]) locked_[joined(v)] = true;
-  for (std::uint32_t v = 0; v < locked_.size(); ++v) locked_[v] = locked_[joined(v)];
+  if (is_original_) {
+    for (std::uint32_t v = 0; v < locked_.size(); ++v)
+      if (locked_[v]) locked_[joined(v)] = true;
+    for (std::uint32_t v = 0; v < locked_.size(); ++v) locked_[v] = locked_[joined(v)];
+  } else if (!locked_.empty()) {
+    for (std::uint32_t v = 0; v < position_.size(); ++v)
+      if (locked_[source_vertex_[v]]) source_vertex_[position_[v]] = source_vertex_[v];
+    for (std::uint32_t v = 0; v < position_.size(); ++v) source_vertex_[v] = source_vertex_[position_[v]];
+  }
 }
 
 void TiledMesh::find_owners(const Pass& how) {
-  if (is_original_) {
-    position_ = first_at_positions(original_);
-    spread_locks();
-  }
+  position_ = first_at_positions(*now_);
+  spread_locks();
   const std::vector<std::uint32_t> weights = this->weights();
   std::vector<std::uint32_t> owner;
   std::uint32_t tiles = 0;
@@ -264,11 +276,10 @@ void TiledMesh::find_what_stays() {
       for (const std::uint32_t f : cover) stay(proven_.mesh.triangles[f]);
     });
   }
+  spread(stays_);
   at_seam_.resize(now_->vertex_count(), 1);
-  for (std::uint32_t v = 0; v < stays_.size(); ++v) {
-    stays_[v] = stays_[joined(v)];
-    at_seam_[v] &= stays_[v];
-  }
+  for (std::uint32_t v = 0; v < stays_.size(); ++v) at_seam_[v] &= stays_[v];
+  spread(at_seam_);
 }
 
 /// The originals of a tile: those that its own triangles cover, also in part, and those that its triangles are near.
@@ -361,9 +372,12 @@ std::vector<std::uint32_t> TiledMesh::near_of(const TileNumbers& numbers) const 
   return near;
 }
 
-TileInput TiledMesh::input_of(const MeshPart& part, const TileNumbers& numbers) const {
-  if (is_original_) return {part.mesh, std::nullopt, locked(numbers.vertices)};
-  TileInput input{part_of(original_, numbers.originals).mesh, ProvenMesh(), locked(numbers.vertices)};
+TileInput TiledMesh::input_of(std::uint32_t tile, const MeshPart& part, const TileNumbers& numbers) const {
+  std::vector<bool> at_rim;
+  for (const std::uint32_t v : numbers.vertices) at_rim.push_back(owner_[v] != tile);
+  if (is_original_) return {part.mesh, std::nullopt, locked(numbers.vertices), std::move(at_rim)};
+  TileInput input{part_of(original_, numbers.originals).mesh, ProvenMesh(), locked(numbers.vertices),
+                  std::move(at_rim)};
   ProvenMesh& start = *input.start;
   start.mesh = part.mesh;
   start.cover = numbers.cover;
@@ -393,9 +407,11 @@ TiledMesh::TileResult TiledMesh::take(const TileNumbers& numbers, TileOutput out
   }
   output.proven.cover = {};
   if (is_original_) std::erase_if(output.kept, [&](std::uint32_t t) { return !numbers.is_own[t]; });
-  std::size_t own = 0;
+  const std::vector<std::uint32_t> turned = std::exchange(output.turned, {});
+  std::uint32_t own = 0;
   for (std::size_t i = 0; i < output.source_triangle.size(); ++i) {
     if (!numbers.is_own[output.source_triangle[i]]) continue;
+    if (std::binary_search(turned.begin(), turned.end(), i)) output.turned.push_back(own);
     output.proven.mesh.triangles[own] = output.proven.mesh.triangles[i];
     output.proven.near[own] = output.proven.near[i];
     output.source_triangle[own++] = output.source_triangle[i];
@@ -415,6 +431,7 @@ TiledMesh::TileResult TiledMesh::take(const TileNumbers& numbers, TileOutput out
 struct TiledMesh::Joined {
   ProvenMesh whole;
   std::vector<std::uint32_t> source_vertex, source_triangle;
+  std::vector<bool> is_turned;
   std::vector<std::uint8_t> at_seam;
   std::vector<std::uint32_t> staying;      ///< vertices before that stay, ascending
   std::vector<std::uint32_t> staying_now;  ///< by these: the number now; `no_index` until it is met
@@ -454,10 +471,13 @@ std::uint32_t TiledMesh::join_vertex(Joined& into, std::uint32_t before, const E
   return number;
 }
 
-void TiledMesh::join_triangle(Joined& into, std::uint32_t before, const Triangle& corners, std::uint32_t near) const {
+/// `is_turned`: it faces the other way than triangle `before`.
+void TiledMesh::join_triangle(Joined& into, std::uint32_t before, const Triangle& corners, std::uint32_t near,
+                              bool is_turned) const {
   into.before.push_back(before);
   into.whole.mesh.triangles.push_back(corners);
   into.source_triangle.push_back(is_original_ ? before : source_triangle_[before]);
+  into.is_turned.push_back(is_turned != (!is_original_ && is_turned_[before]));
   into.whole.near.push_back(near);
 }
 
@@ -471,19 +491,23 @@ void TiledMesh::join_what_stays(Joined& into) const {
   for (std::size_t i = 0; i < staying.size(); ++i) {
     Triangle corners = part.mesh.triangles[i];
     for (std::uint32_t& v : corners) v = join_vertex(into, part.vertices[v], part.mesh.vertices[v]);
-    join_triangle(into, staying[i], corners, is_original_ ? staying[i] : proven_.near[staying[i]]);
+    join_triangle(into, staying[i], corners, is_original_ ? staying[i] : proven_.near[staying[i]], false);
   }
 }
 
-/// Adds the triangles of a tile.
+/// Adds the triangles of a tile with their vertices. Others of its vertices have only triangles that stay, which have
+/// come with vertices of their own.
 void TiledMesh::join_tile(Joined& into, TileResult& tile) {
   const TileOutput& output = tile.output;
-  std::vector<std::uint32_t> number;
-  for (std::size_t v = 0; v < output.source_vertex.size(); ++v)
-    number.push_back(join_vertex(into, output.source_vertex[v], output.proven.mesh.vertices[v]));
-  for (std::size_t i = 0; i < output.source_triangle.size(); ++i) {
+  std::vector<std::uint32_t> number(output.source_vertex.size(), no_index);
+  for (const Triangle& corners : output.proven.mesh.triangles)
+    for (const std::uint32_t v : corners) number[v] = 0;
+  for (std::size_t v = 0; v < number.size(); ++v)
+    if (number[v] != no_index) number[v] = join_vertex(into, output.source_vertex[v], output.proven.mesh.vertices[v]);
+  for (std::uint32_t i = 0; i < output.source_triangle.size(); ++i) {
     const auto& [a, b, c] = output.proven.mesh.triangles[i];
-    join_triangle(into, output.source_triangle[i], {number[a], number[b], number[c]}, output.proven.near[i]);
+    join_triangle(into, output.source_triangle[i], {number[a], number[b], number[c]}, output.proven.near[i],
+                  std::binary_search(output.turned.begin(), output.turned.end(), i));
   }
   kept_.insert(kept_.end(), output.kept.begin(), output.kept.end());
   tile.output = {};
@@ -499,6 +523,7 @@ void TiledMesh::join(std::vector<TileResult>& tiles) {
   now_ = &proven_mesh_;
   source_vertex_ = std::move(into.source_vertex);
   source_triangle_ = std::move(into.source_triangle);
+  is_turned_ = std::move(into.is_turned);
   at_seam_ = std::move(into.at_seam);
   is_original_ = false;
   triangles_.reset(), originals_.reset(), beside_.reset(), new_covers_.reset();
@@ -547,6 +572,7 @@ void TiledMesh::current_mesh(SimplifiedLevel& into) const {
     into.mesh.triangles.push_back({number[a], number[b], number[c]});
     into.source_triangle.push_back(source_triangle_[t]);
   }
+  into.turned_faces = static_cast<std::size_t>(std::count(is_turned_.begin(), is_turned_.end(), true));
   const MeshPart kept = part_of(original_, kept_);
   for (std::size_t i = 0; i < kept_.size(); ++i) {
     const auto first = static_cast<std::uint32_t>(into.mesh.vertices.size());

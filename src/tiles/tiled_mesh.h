@@ -81,7 +81,7 @@ class TiledMesh {
   [[nodiscard]] std::uint32_t source_of(std::uint32_t vertex) const {
     return is_original_ ? vertex : source_vertex_[vertex];
   }
-  /// Vertices of the original at one position are one.
+  /// Vertices at one position are one, also those that a pass before has split.
   [[nodiscard]] std::uint32_t joined(std::uint32_t vertex) const {
     return position_.empty() ? vertex : position_[vertex];
   }
@@ -95,6 +95,7 @@ class TiledMesh {
   [[nodiscard]] std::vector<std::uint8_t> vertices_near_seams(int rings) const;
   [[nodiscard]] std::vector<std::uint32_t> weights() const;
   void spread_locks();
+  void spread(std::vector<std::uint8_t>& marks) const;
   void find_owners(const Pass& how);
   void cut_original(const Pass& how, std::span<const std::uint32_t> weights, const UseTile& use) const;
   void cut_near_seams(const Pass& how, std::span<const std::uint32_t> weights, const UseTile& use) const;
@@ -106,7 +107,7 @@ class TiledMesh {
   MeshPart find_numbers(std::uint32_t tile, TileNumbers& numbers) const;
   [[nodiscard]] NumberLists cover_of(std::uint32_t tile, const TileNumbers& numbers) const;
   [[nodiscard]] std::vector<std::uint32_t> near_of(const TileNumbers& numbers) const;
-  [[nodiscard]] TileInput input_of(const MeshPart& part, const TileNumbers& numbers) const;
+  [[nodiscard]] TileInput input_of(std::uint32_t tile, const MeshPart& part, const TileNumbers& numbers) const;
   [[nodiscard]] std::vector<bool> locked(const std::vector<std::uint32_t>& vertices) const;
   [[nodiscard]] TileResult take(const TileNumbers& numbers, TileOutput output);
   void join(std::vector<TileResult>& tiles);
@@ -114,7 +115,8 @@ class TiledMesh {
   void join_what_stays(Joined& into) const;
   void join_tile(Joined& into, TileResult& tile);
   std::uint32_t join_vertex(Joined& into, std::uint32_t before, const Eigen::Vector3d& position) const;
-  void join_triangle(Joined& into, std::uint32_t before, const Triangle& corners, std::uint32_t near) const;
+  void join_triangle(Joined& into, std::uint32_t before, const Triangle& corners, std::uint32_t near,
+                     bool is_turned) const;
   [[nodiscard]] StoredLists join_covers(const std::vector<TileResult>& tiles, const Joined& into) const;
   template <class Use>
   void for_each_cover(const Use& use) const;
@@ -128,8 +130,9 @@ class TiledMesh {
   StoredLists cover_;                           ///< of `proven_`
   std::vector<std::uint32_t> source_vertex_;    ///< of the original, by vertex of `proven_.mesh`
   std::vector<std::uint32_t> source_triangle_;  ///< of the original, by triangle of `proven_.mesh`
-  std::vector<std::uint32_t> kept_;             ///< originals that are part of the result as they are
-  std::vector<std::uint8_t> at_seam_;           ///< by vertex: it has stayed in all passes
+  std::vector<bool> is_turned_;        ///< by triangle of `proven_.mesh`: it faces the other way than its source
+  std::vector<std::uint32_t> kept_;    ///< originals that are part of the result as they are
+  std::vector<std::uint8_t> at_seam_;  ///< by vertex: it has stayed in all passes
 
   // What the pass under way has found.
   std::vector<std::uint32_t> position_;    ///< by vertex: the first one at its position; empty where all are different

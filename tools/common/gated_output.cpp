@@ -66,8 +66,10 @@ Precision GatedOutput::precision() const {
   return stores_floats(format_of(path_), options_) ? Precision::Single : Precision::Double;
 }
 
-void GatedOutput::write(const TriangleMesh& mesh, std::span<const Edge> lines, const MeshAttributes& attributes) {
+void GatedOutput::write(const TriangleMesh& mesh, std::span<const Edge> lines, const MeshAttributes& attributes,
+                        std::size_t turned_faces) {
   restart();
+  found_.turned_faces = turned_faces;
   found_.lines = line_mesh(mesh, lines);
   if (precision() == Precision::Single && !attributes.document) round_to_floats(found_.lines);
   if (workers_ != nullptr)

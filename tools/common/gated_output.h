@@ -71,9 +71,11 @@ class GatedOutput {
   void require_normals(const std::optional<OriginalNormals>& normals) { original_normals_ = normals; }
 
   /// Writes a mesh under the temporary name. `lines` are edges of the mesh, `attributes` those of its triangles as far
-  /// as the format carries them. Throws `IoError`; `InvalidInput` when a coordinate leaves the range of the format.
-  /// After `Stopped` only `write` and `fall_back` may be called.
-  void write(const TriangleMesh& mesh, std::span<const Edge> lines = {}, const MeshAttributes& attributes = {});
+  /// as the format carries them, `turned_faces` is that of its level. Throws `IoError`; `InvalidInput` when a
+  /// coordinate leaves the range of the format. After `Stopped` only `write` and `fall_back` may be called.
+  void write(const TriangleMesh& mesh, std::span<const Edge> lines = {}, const MeshAttributes& attributes = {},
+             std::size_t turned_faces = 0);
+  [[nodiscard]] std::size_t turned_faces() const { return found_.turned_faces; }  ///< of what was written
 
   /// Reads the mesh that was written. Throws as `read_mesh`.
   [[nodiscard]] TriangleMesh written_mesh() const;
@@ -134,6 +136,7 @@ class GatedOutput {
     std::optional<TextureDeviation> texture;
     std::optional<NormalDeviation> normals;
     MeshSummary summary;
+    std::size_t turned_faces = 0;
   };
 
   void restart();

@@ -134,6 +134,8 @@ SimplifyOptions DecimationRun::decimation(const GatedOutput& output, double tole
         parse_length("--line-tolerance", shared_.line_tolerance).in_model_units(original_.diagonal);
   options.feature_edges = original_.feature_edges;
   options.looks = original_.looks;
+  options.keep_sides = original_.attributes.document || !original_.attributes.texture_coordinates.empty() ||
+                       !original_.attributes.normals.empty();
   if (shared_.placement == "subset") options.placements = CollapsePlacements::Subset;
   options.normal_tolerance = shared_.normal_tolerance;
   if (bounds_texture()) guard_texture(texture_tolerance_of(tolerance), options);
@@ -370,7 +372,7 @@ bool DecimationRun::writes(GatedOutput& output, const SimplifiedLevel& level) co
                                           ? MeshAttributes()
                                           : transferred_attributes(original_.mesh, original_.attributes, level);
     const SimplifiedLevel placed = placed_as_written(level, attributes);
-    output.write(placed.mesh, placed.lines, attributes);
+    output.write(placed.mesh, placed.lines, attributes, level.turned_faces);
     return true;
   } catch (const Stopped&) {
     return false;

@@ -39,6 +39,11 @@ void print_locked(std::size_t vertices, const MeshSummary& original) {
                            " vertices: they stay where they are, for edges");
 }
 
+void print_turned(std::size_t faces) {
+  if (faces == 0) return;
+  print_line("turned", face_count(faces) + " of the result, wound the other way than in the input, as neighbours are");
+}
+
 void print_lines(const std::optional<LineReport>& lines, double diagonal) {
   if (!lines) return;
   print_line("lines", std::to_string(lines->original_edges) + " -> " + std::to_string(lines->edges) +

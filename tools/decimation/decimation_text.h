@@ -19,6 +19,9 @@ void print_dropped(const MeshReport& original);
 /// "locked      12 of 482 vertices: ...", a line on stdout where options lock some.
 void print_locked(std::size_t vertices, const MeshSummary& original);
 
+/// How many faces of a result face the other way than their originals; prints nothing for 0.
+void print_turned(std::size_t faces);
+
 /// "lines       64 -> 10 edges ...", lines on stdout where there are feature lines.
 void print_lines(const std::optional<LineReport>& lines, double diagonal);
 

@@ -358,6 +358,7 @@ void Run::describe() {
   report_.provenance = provenance();
   report_.simplified = {verdict_ == Verdict::Within ? as_typed(options_.output) : "", out.summary()};
   if (!checksums_.empty()) report_.simplified.sha256 = checksums_.back();
+  report_.turned_faces = out.turned_faces();
   report_.distance = out.distance();
   report_.lines = line_report(out, report_.tolerance);
   report_.texture = texture_report(out);
@@ -366,7 +367,7 @@ void Run::describe() {
     report_.levels.push_back({tolerances_[i], decided_by_[i], outputs_[i].path().string(), outputs_[i].summary().faces,
                               outputs_[i].distance(), line_report(outputs_[i], tolerances_[i]),
                               texture_report(outputs_[i]), normal_report(outputs_[i]),
-                              checksums_.empty() ? "" : checksums_[i]});
+                              checksums_.empty() ? "" : checksums_[i], outputs_[i].turned_faces()});
   report_.input = {result_.split, result_.dropped_triangles, result_.kept_triangles};
   if (options_.resume) report_.resumed_tiles = options_.workers->reused_tiles();
   if (!options_.memory.empty()) report_.memory = MemoryReport{peak_memory(), parse_memory("--memory", options_.memory)};

@@ -54,6 +54,7 @@ void print_summary(const FinishedRun& run) {
     print_texture(*report.texture, {"original to simplified", "simplified to original"}, run.diagonal);
   if (report.deviation) print_deviation(*report.deviation, "original to simplified", "simplified to original");
   print_locked(run.result.locked_vertices, report.original.summary);
+  print_turned(out.turned_faces());
   if (run.options.prune)
     print_line("pruned",
                std::to_string(run.result.pruned_components) + " components of " + face_count(run.result.pruned_faces));

@@ -35,13 +35,16 @@ class ManifoldBuilder {
   /// `neighbours`, `look` and `number` may be empty.
   ManifoldBuilder(const MeshView& soup, std::vector<std::uint32_t> first,
                   std::span<const TriangleNeighbours> neighbours, std::span<const std::uint32_t> look,
-                  std::span<const std::uint32_t> number)
+                  std::span<const std::uint32_t> number, const std::vector<bool>& at_rim)
       : soup_(soup),
         neighbours_(neighbours),
         look_(look),
         number_(number),
         is_shared_(first.size(), 0),
         first_(std::move(first)) {
+    at_rim_.resize(at_rim.size(), false);
+    for (std::uint32_t v = 0; v < at_rim.size(); ++v)
+      if (at_rim[v]) at_rim_[first_[v]] = true;
     for (std::uint32_t v = 0; v < first_.size(); ++v) {
       if (first_[v] == v) continue;
       is_shared_[first_[v]] = 1;
@@ -108,10 +111,16 @@ class ManifoldBuilder {
     at(result_.twin, a) = b;
     at(result_.twin, b) = a;
   }
-  /// Joins edges that may run in one direction.
-  void join_unoriented(std::uint32_t a, std::uint32_t b) {
+  [[nodiscard]] bool is_at_rim(std::uint32_t corner) const {
+    return !at_rim_.empty() && at_rim_[at(result_.faces, corner)] && at_rim_[at(result_.faces, next(corner))];
+  }
+  /// Joins edges that may run in one direction, unless there may be more of them. Whether it did.
+  bool join_unoriented(std::uint32_t a, std::uint32_t b) {
+    const bool is_oriented = runs_upward(a) != runs_upward(b);
+    if (!is_oriented && is_at_rim(a)) return false;
     join(a, b);
-    is_oriented_ = is_oriented_ && runs_upward(a) != runs_upward(b);
+    is_oriented_ = is_oriented_ && is_oriented;
+    return true;
   }
   void cut(std::uint32_t corner) {
     at(result_.twin, at(result_.twin, corner)) = no_index;
@@ -143,6 +152,7 @@ class ManifoldBuilder {
   std::vector<std::uint32_t> sheet_;     ///< by triangle of the soup; empty: all are on the first one
   std::vector<std::uint8_t> is_shared_;  ///< by vertex of the soup: another one has it as its first
   bool has_shared_ = false;              ///< any is
+  std::vector<bool> at_rim_;             ///< by first vertex at a position; empty: none is
   bool is_oriented_ = true;              ///< twins run in opposite directions, everywhere
   std::vector<std::uint32_t> first_;     ///< by vertex of the soup: the first one with its coordinates
   std::vector<Crowd> crowded_;           ///< edges of more than two faces that are joined in pairs
@@ -271,10 +281,7 @@ ManifoldBuilder::Crowd ManifoldBuilder::add_crowd(std::span<const Side> faces) {
 /// False, and none are joined, where they cannot be paired.
 bool ManifoldBuilder::join_in_pairs(const Crowd& crowd, bool around_material) {
   const std::span<const std::uint32_t> corners = std::span(crowds_).subspan(crowd.begin, crowd.flat - crowd.begin);
-  if (corners.size() == 2) {
-    join_unoriented(corners[0], corners[1]);
-    return true;
-  }
+  if (corners.size() == 2) return join_unoriented(corners[0], corners[1]);
   std::vector<std::uint8_t> upward;
   for (const std::uint32_t corner : corners) upward.push_back(runs_upward(corner) ? 1 : 0);
   const auto pairs = pairs_around_edge(upward, around_material);
@@ -446,11 +453,11 @@ ManifoldSoup manifold_soup(const MeshView& soup, std::span<const std::uint32_t> 
 
 ManifoldSoup manifold_soup(const MeshView& soup, std::vector<std::uint32_t> first_at_position,
                            std::span<const TriangleNeighbours> neighbours, std::span<const std::uint32_t> look,
-                           std::span<const std::uint32_t> number) {
+                           std::span<const std::uint32_t> number, const std::vector<bool>& at_rim) {
   if (soup.triangle_count() > max_triangles)
     throw InvalidInput("the mesh has " + std::to_string(soup.triangle_count()) +
                        " triangles; decimation takes 2^32 / 3 of them at most, simplify it in pieces");
-  return ManifoldBuilder(soup, std::move(first_at_position), neighbours, look, number).build();
+  return ManifoldBuilder(soup, std::move(first_at_position), neighbours, look, number, at_rim).build();
 }
 
 }  // namespace meshbound

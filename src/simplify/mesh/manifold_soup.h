@@ -53,6 +53,10 @@ struct ManifoldSoup {
 /// numbers it is the order of the soup. Where that is another one than the caller's, as along a space-filling curve,
 /// the caller's numbers keep fronts on one sheet and backs on another: a curve may meet either of both first.
 ///
+/// `at_rim` is empty or says of each vertex whether `soup` may lack triangles that have it, as a tile of a larger mesh
+/// does at its rim. Two triangles of an edge between such vertices may be some of many: they are joined only where they
+/// run along it in opposite directions, so that what closes a solid is not turned over.
+///
 /// `soup` is valid (see `validate`). Without faces where no triangle has three different corners. Throws `InvalidInput`
 /// for more than 2^32 / 3 triangles. Deterministic; O(n log d) expected time for d edges at a vertex, O(n) memory.
 [[nodiscard]] ManifoldSoup manifold_soup(const MeshView& soup, std::span<const std::uint32_t> look = {});
@@ -62,6 +66,7 @@ struct ManifoldSoup {
 [[nodiscard]] ManifoldSoup manifold_soup(const MeshView& soup, std::vector<std::uint32_t> first_at_position,
                                          std::span<const TriangleNeighbours> neighbours,
                                          std::span<const std::uint32_t> look,
-                                         std::span<const std::uint32_t> number = {});
+                                         std::span<const std::uint32_t> number = {},
+                                         const std::vector<bool>& at_rim = {});
 
 }  // namespace meshbound
