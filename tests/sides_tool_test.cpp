@@ -3,8 +3,11 @@
 // and say how many they turn over where it has none.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "json_claims.h"
@@ -84,7 +87,7 @@ TEST_F(Sides, ThatAreTurnedOverAreCounted) {
     EXPECT_EQ(area_that_shows_its_lower_side(in(out)), 0);
   }
   const ToolRun chain =
-      run_tool(LOD_CHAIN, {in("in.obj"), in("chain"), "--levels", "0.2", "--format", "off", "--json", in("l.json")});
+      run_tool(LOD_CHAIN, {in("in.obj"), in("chain"), "--levels", "0.01", "--format", "off", "--json", in("l.json")});
   ASSERT_EQ(chain.exit_code, 0) << chain.err;
   EXPECT_GT(checked_document(content_of(in("l.json")))["levels"][0]["turned_faces"], 0);
   EXPECT_NE(chain.out.find("\nturned  "), std::string::npos) << chain.out;
