@@ -234,7 +234,7 @@ TEST(ManifoldSoup, KeepsTheOrientationOfTheFirstOfTwo) {
 TEST(ManifoldSoup, TurnsNoTriangleOverAcrossAnEdgeAtTheRim) {
   const TriangleMesh soup = mesh_of({{0, 1, 2}, {0, 1, 3}, {4, 5, 6}, {5, 4, 7}});
   const auto with_rim = [&](const std::vector<bool>& at_rim) {
-    return manifold_soup(soup, meshbound::first_at_position(meshbound::positions_of(soup)), {}, {}, at_rim);
+    return manifold_soup(soup, meshbound::first_at_position(meshbound::positions_of(soup)), {}, {}, {}, at_rim);
   };
   const ManifoldSoup result = with_rim({true, true, false, false, true, true, false, false});
   EXPECT_EQ(result.twin[0][0], meshbound::no_index);

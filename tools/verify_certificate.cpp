@@ -151,7 +151,7 @@ std::string left_out(const verify::Proof::Texture& texture) {
 void print(const Options& options, const Inputs& inputs, const Outcome& outcome) {
   const verify::Proof::Direction &forward = outcome.proof->original_to_simplified,
                                  &backward = outcome.proof->simplified_to_original;
-  const double diagonal = diagonal_of(inputs.original);
+  const double diagonal = bounding_box_diagonal(inputs.original);
   print_line("proven", options.original + " and " + options.simplified + " are within " +
                            both_units(outcome.proof->tolerance, diagonal) + " of each other");
   print_line("pieces", std::to_string(forward.pieces) + " of the original, " + std::to_string(backward.pieces) +
