@@ -48,6 +48,12 @@ TEST(GuardedFace, ThatIsThinMayTurnButNotFoldBack) {
   EXPECT_TRUE(allows(mesh, -as_thin, 0)) << "without a normal before and after";
 }
 
+/// As needles around a narrow tube are.
+TEST(GuardedFace, ThatIsThinMayStayFoldedBack) {
+  EXPECT_TRUE(allows(over_axis(-thin), -0.5, 0));
+  EXPECT_FALSE(allows(over_axis(-thin / 10), -0.5, 0)) << "its normal says nothing";
+}
+
 TEST(GuardedFace, ThatIsThinStaysThinBesideAFaceThatIsNotLookedAt) {
   const ArrayMesh mesh = over_axis(thin);
   EXPECT_FALSE(allows(mesh, 0.5, 0, false));

@@ -65,7 +65,8 @@ std::string for_bash(const std::string& tool, const std::vector<Word>& words) {
          "  case ${COMP_WORDS[COMP_CWORD-1]} in\n" + cases + "    " + joined(taking_files, "|") +
          ") mapfile -t COMPREPLY < <(compgen -f -- \"$word\"); return ;;\n  esac\n" +
          "  if [[ $word == -* ]]; then\n    COMPREPLY=($(compgen -W '" + joined(names, " ") +
-         "' -- \"$word\"))\n  else\n    mapfile -t COMPREPLY < <(compgen -f -- \"$word\")\n  fi\n}\ncomplete -o filenames -F _" +
+         "' -- \"$word\"))\n  else\n    mapfile -t COMPREPLY < <(compgen -f -- \"$word\")\n  fi\n}\ncomplete -o "
+         "filenames -F _" +
          tool + " " + tool + "\n";
 }
 

@@ -220,8 +220,8 @@ class TextureCheck {
     for (const DomainPolygon& polygon : rest) uncovered_area_ += 2 * at_->area * rough_area(polygon);
   }
 
-  /// The triangles that may have an area of the texture in common with the triangle at hand, or any point of it where it
-  /// has no area. Around a vertex of thousands of triangles nearly all boxes meet, but no areas.
+  /// The triangles that may have an area of the texture in common with the triangle at hand, or any point of it where
+  /// it has no area. Around a vertex of thousands of triangles nearly all boxes meet, but no areas.
   [[nodiscard]] std::vector<const TextureSurface::Triangle*> may_cover() const {
     std::vector<const TextureSurface::Triangle*> result = index_.near(*at_);
     const auto is_apart = [&](const TextureSurface::Triangle* triangle) {
