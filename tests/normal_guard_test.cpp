@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "simplify/mesh/manifold_soup.h"
 
 namespace meshbound {
@@ -48,10 +51,23 @@ TEST(GuardedFace, ThatIsThinMayTurnButNotFoldBack) {
   EXPECT_TRUE(allows(mesh, -as_thin, 0)) << "without a normal before and after";
 }
 
-/// As needles around a narrow tube are.
-TEST(GuardedFace, ThatIsThinMayStayFoldedBack) {
-  EXPECT_TRUE(allows(over_axis(-thin), -0.5, 0));
-  EXPECT_FALSE(allows(over_axis(-thin / 10), -0.5, 0)) << "its normal says nothing";
+/// As needles around a narrow tube do: the third corners of two over one edge, which enclose this angle.
+TEST(GuardedFace, ThatIsANeedleMayEncloseTheAngleThatItDoes) {
+  const auto corner = [](double degrees, double height) {
+    const double angle = degrees / 180 * std::numbers::pi;
+    return Eigen::Vector3d(0.5, -height * std::cos(angle), height * std::sin(angle));
+  };
+  const auto may_become = [&](double before, double after) {
+    const Eigen::Vector3d third = corner(before, as_thin), moved = corner(after, 0.5);
+    const ManifoldSoup soup =
+        manifold_soup(TriangleMesh{{{0, 0, 0}, {1, 0, 0}, third, {0.5, -as_thin, 0}}, {{0, 1, 2}, {1, 0, 3}}});
+    std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}, {third.x(), third.y(), third.z()}, {0.5, -as_thin, 0}};
+    return allows(ArrayMesh(std::move(positions), soup.faces, soup.twin), moved.y(), moved.z());
+  };
+  EXPECT_TRUE(may_become(40, 41));
+  EXPECT_FALSE(may_become(40, 30));
+  EXPECT_FALSE(may_become(100, 50));
+  EXPECT_FALSE(may_become(10, 11)) << "a flap";
 }
 
 TEST(GuardedFace, ThatIsThinStaysThinBesideAFaceThatIsNotLookedAt) {

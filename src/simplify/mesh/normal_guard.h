@@ -31,11 +31,11 @@ class GuardedFace {
       stays_thin_ = true;
       return;
     }
-    beside_ = normal(mesh.triangle(across / 3));
-    const TriangleCorners before = mesh.triangle(moved / 3);
-    const double longest = squared_longest_edge(before), lengths = length(beside_) * length(normal_);
-    const bool has_direction = squared_area_ >= min_shape * min_shape * longest * longest && lengths > 0;
-    if (has_direction) least_cosine_ = std::min(least_cosine_, dot(beside_, normal_) / lengths);
+    const TriangleCorners here = mesh.triangle(moved / 3), there = mesh.triangle(across / 3);
+    beside_ = normal(there);
+    const bool are_needles = is_needle(squared_area_, here) && is_needle(squared_length(beside_), there);
+    const double cosine = dot(beside_, normal_) / (length(beside_) * length(normal_));
+    if (are_needles && cosine > folded_cosine) least_cosine_ = std::min(least_cosine_, cosine);
   }
 
   [[nodiscard]] bool allows(const TriangleCorners& after) const {
@@ -52,8 +52,10 @@ class GuardedFace {
  private:
   static constexpr double min_cosine = 0.1;  ///< between the normals of a face before and after
   /// Between the normals of a face that was thin and of the one beside it: they may enclose 60 degrees, or less where
-  /// they did before, as needles of a curved surface do.
+  /// two needles did before, as those of a curved surface do.
   static constexpr double min_cosine_beside = -0.5;
+  /// Needles that enclose less than 18 degrees are flaps, which models of machines have, and stay as thin as they are.
+  static constexpr double folded_cosine = -0.95;
   /// A face keeps its area where its corner moves parallel to the edge across, and rounding must not refuse that. This
   /// is the least share that is kept, of the squared area.
   static constexpr double min_squared_share = 1 - 1e-9;
@@ -67,6 +69,11 @@ class GuardedFace {
   static Vec3 normal(const TriangleCorners& c) { return cross(c[1] - c[0], c[2] - c[0]); }
   static bool is_thin(double squared_area, double squared_longest) {
     return squared_area < min_shape_with_normal * min_shape_with_normal * squared_longest * squared_longest;
+  }
+  /// Whether a face is thin, but not too thin for its normal to say something beside another needle's.
+  static bool is_needle(double squared_area, const TriangleCorners& corners) {
+    const double longest = squared_longest_edge(corners);
+    return squared_area > min_shape * min_shape * longest * longest && is_thin(squared_area, longest);
   }
   static double squared_longest_edge(const TriangleCorners& c) {
     return std::max({squared_length(c[1] - c[0]), squared_length(c[2] - c[1]), squared_length(c[0] - c[2])});
