@@ -126,6 +126,16 @@ TEST_F(DeviationTool, HeatmapsHoldTheDistanceOfEveryVertex) {
   EXPECT_EQ(mesh("result.ply").triangles, mesh("out.ply").triangles) << "our own reader takes it, too";
 }
 
+/// It lies where the bound of the surface says nothing.
+TEST_F(DeviationTool, AVertexThatNoTriangleHasKeepsItsOwnDistance) {
+  TriangleMesh with_unused = datasets::torus(1, 0.3, 40, 16);
+  with_unused.vertices.emplace_back(0, 0, 5);
+  write_mesh(in("unused.off"), with_unused);
+  const ToolRun run = run_tool(HAUSDORFF_DISTANCE, {in("unused.off"), in("in.off"), "--heatmap-original", in("h.ply")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_GT(read_heatmap(in("h.ply")).vertices.back().quality, 4);
+}
+
 TEST_F(DeviationTool, WhatIsBeyondTheToleranceHasAColourOfItsOwn) {
   ASSERT_EQ(simplify({"--quiet"}).exit_code, 0);
   const ToolRun run = run_tool(HAUSDORFF_DISTANCE, {in("in.off"), in("out.ply"), "--tolerance", "0.005", "--heatmap",

@@ -38,6 +38,10 @@ constexpr double min_error_bound = 1e-9;
 /// for any measurement.
 constexpr double smaller_tolerance = 0.99;
 
+/// Cuts that the second method of measuring may make in one direction, some seconds of work: at a tolerance below the
+/// rounding of a file it goes on until doubles end.
+constexpr std::uint64_t max_cuts_of_second_method = 1 << 20;
+
 /// A share of the largest coordinate of a vertex: vertices that are nearer to each other may have the same position in
 /// the working frame, the scaled coordinates in which a mesh is decimated.
 constexpr double rounding_of_frame = 0x1p-50;
@@ -396,9 +400,10 @@ bool DecimationRun::decides(GatedOutput& output, const DistanceOptions& options)
 DecidedBy DecimationRun::prove(GatedOutput& output, double tolerance, const OutputSteps& steps) {
   DistanceOptions options = measurement(tolerance);
   if (!is_out_of_time() && decides(output, options)) return DecidedBy::Measurement;
-  options.method = Method::CrossCulling;
-  if (!is_out_of_time() && decides(output, options)) return DecidedBy::SecondMethod;
-  options.method = Method::CellWalking;
+  DistanceOptions second = options;
+  second.method = Method::CrossCulling;
+  second.budget.subdivisions = max_cuts_of_second_method;
+  if (!is_out_of_time() && decides(output, second)) return DecidedBy::SecondMethod;
   if (!is_out_of_time() && writes(output, steps.redo(smaller_tolerance * tolerance)) && !is_out_of_time() &&
       decides(output, options))
     return DecidedBy::SmallerTolerance;

@@ -9,6 +9,7 @@
 #include "common/signals.h"
 #include "deviation/deviation_image.h"
 #include "deviation/heatmap_file.h"
+#include "mesh/mesh_arrays.h"
 #include "meshbound/bvh.h"
 #include "meshbound/mesh_summary.h"
 
@@ -36,6 +37,17 @@ DeviationStatistics statistics_of(const TriangleMesh& mesh, const Bvh& other, co
 /// Deviations of a mesh of which no point is further than `max_distance`.
 std::vector<Bounds> at_most(std::vector<Bounds> deviations, double max_distance) {
   for (Bounds& deviation : deviations) deviation.upper = std::min(deviation.upper, max_distance);
+  return deviations;
+}
+
+/// Deviations of the vertices of a mesh of which no point is further than `max_distance`. Those that no triangle has
+/// are no points of it, and may be.
+std::vector<Bounds> of_vertices(const TriangleMesh& mesh, const Bvh& other, double max_distance,
+                                const DeviationOptions& options) {
+  std::vector<Bounds> deviations = vertex_deviations(mesh, other, options);
+  const std::vector<std::uint8_t> used = used_vertices(mesh);
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (used[v] != 0) deviations[v].upper = std::min(deviations[v].upper, max_distance);
   return deviations;
 }
 
@@ -77,8 +89,8 @@ struct DeviationOutputs::Measured {
 
   Measured(const DeviationSubject& subject, const DeviationOptions& options)
       : trees(build_trees(*subject.original, *subject.result, {options.threads, options.stop})),
-        original(at_most(vertex_deviations(*subject.original, trees.second, options), subject.maxima.of_original)),
-        result(at_most(vertex_deviations(*subject.result, trees.first, options), subject.maxima.of_result)) {}
+        original(of_vertices(*subject.original, trees.second, subject.maxima.of_original, options)),
+        result(of_vertices(*subject.result, trees.first, subject.maxima.of_result, options)) {}
 };
 
 void DeviationOutputs::measure(const DeviationSubject& subject, const DeviationOptions& options) {
