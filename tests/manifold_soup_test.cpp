@@ -394,7 +394,8 @@ TEST(ManifoldSoup, KeepsTheBackOfATriangleWhereLooksCount) {
   EXPECT_EQ(manifold_soup(soup).triangle_of, (std::vector<std::uint32_t>{0}));
 }
 
-/// Of one half of a square the front comes first, of the other half the back; the caller had both fronts first.
+/// A square whose triangles lie on their backs: the front of one comes first, the back of the other; the caller had
+/// both fronts first.
 TEST(ManifoldSoup, NumbersSheetsInTheOrderOfTheCaller) {
   const TriangleMesh soup = mesh_of({{0, 1, 2}, {2, 1, 0}, {3, 2, 0}, {0, 2, 3}});
   const std::vector<std::uint32_t> look = {0, 1, 1, 0}, number = {0, 2, 3, 1};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 
 namespace meshbound {

@@ -23,6 +23,7 @@ struct SharedBytes {
 };
 
 /// Bytes that are appended and read by ranges. Any number of threads may read while none appends.
+/// A moved-from store may only be destroyed or assigned to.
 class ByteStore {
  public:
   /// Throws `IoError` where the folder takes no files.

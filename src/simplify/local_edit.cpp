@@ -28,7 +28,7 @@ constexpr std::size_t min_degree = 3;
 
 /// Where the sum is smaller, the worst sample at a tenth of the tolerance, there is nothing to gain by a flip, and one
 /// that lowers it by a smaller share is not worth a proof.
-constexpr double least_sum = 1e-6, min_flip_gain = 0.05;
+constexpr double min_deviation_sum = 1e-6, min_flip_gain = 0.05;
 
 }  // namespace
 
@@ -169,7 +169,7 @@ bool LocalEdit::flip_lowers_deviation(Corner edge) {
   if (!gather_flip(edge)) return false;
   const double now = deviation().sum;
   const double enough = (1 - min_flip_gain) * now;
-  return now >= least_sum && place_flipped() && deviation(enough).sum < enough;
+  return now >= min_deviation_sum && place_flipped() && deviation(enough).sum < enough;
 }
 
 /// A point of an edge, which moves by `share` of what the vertex does, and an original triangle near it.

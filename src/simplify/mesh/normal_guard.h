@@ -35,7 +35,7 @@ class GuardedFace {
     beside_ = normal(there);
     const bool are_needles = is_needle(squared_area_, here) && is_needle(squared_length(beside_), there);
     const double cosine = dot(beside_, normal_) / (length(beside_) * length(normal_));
-    if (are_needles && cosine > folded_cosine) least_cosine_ = std::min(least_cosine_, cosine);
+    if (are_needles && cosine > folded_cosine) allowed_cosine_ = std::min(allowed_cosine_, cosine);
   }
 
   [[nodiscard]] bool allows(const TriangleCorners& after) const {
@@ -64,7 +64,7 @@ class GuardedFace {
   static constexpr double min_shape = 1e-4, min_shape_with_normal = 1e-3;
 
   [[nodiscard]] bool folds_back(Vec3 turned) const {
-    return dot(beside_, turned) < least_cosine_ * length(beside_) * length(turned);
+    return dot(beside_, turned) < allowed_cosine_ * length(beside_) * length(turned);
   }
   static Vec3 normal(const TriangleCorners& c) { return cross(c[1] - c[0], c[2] - c[0]); }
   static bool is_thin(double squared_area, double squared_longest) {
@@ -81,7 +81,7 @@ class GuardedFace {
 
   Vec3 normal_, beside_;     ///< of any length; `beside_` is 0 where no face is
   double squared_area_ = 0;  ///< of twice the area
-  double least_cosine_ = min_cosine_beside;
+  double allowed_cosine_ = min_cosine_beside;
   bool is_thin_ = false, stays_thin_ = false;
 };
 
