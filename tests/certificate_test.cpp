@@ -6,14 +6,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "bvh/bvh_data.h"
+#include "certificate/cut_search.h"
 #include "datasets.h"
 #include "datasets/analytic_meshes.h"
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
+#include "proof/edge_neighbours.h"
 #include "reference/small_meshes.h"
 #include "tiles/certificate_in_tiles.h"
 #include "verify/verifier.h"
@@ -312,6 +315,22 @@ TEST(Certificate, EndsWhenItIsTold) {
   EXPECT_EQ(Bvh(coarse).data().serial, tree_before + 1) << "a tree was built although there was no time";
   const double distance = hausdorff_distance(Bvh(fine), Bvh(coarse)).bounds.upper;
   EXPECT_THROW((void)build_certificate(fine, coarse, 1.00001 * distance, short_of_steps), Error);
+}
+
+/// The search within one triangle and from one to the next, which a run of triangles consists of.
+TEST(CutSearch, EndsOnceTheTokenSaysStop) {
+  const Bvh tree(datasets::icosphere(1, 3));
+  const Bvh::Data& data = tree.data();
+  const auto neighbours = edge_neighbours(data.vertices, data.corners);
+  Goal goal;
+  goal.tolerance = 0.01;
+  const std::atomic<bool> told = true;
+  goal.stop.cancel = &told;
+  CutSearch search(data, neighbours, goal, 1, 1);
+  const CornerTriangle<double> t = triangle_at(data, 0);
+  std::uint32_t hint = 0;
+  std::vector<ProofNode> nodes;
+  EXPECT_THROW((void)search.prove({t.a, t.a + t.ab, t.a + t.ac}, hint, nodes, 1000), Stopped);
 }
 
 TEST(Certificate, RefusesTolerancesThatAreNoLengths) {

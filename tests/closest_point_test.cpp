@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -245,6 +246,17 @@ TEST(ClosestPoints, AreThoseAskedOneByOneForAnyNumberOfThreads) {
       for (std::size_t i = 0; i < found.size(); ++i) expect_same(found[i], expected[i]);
     }
   }
+}
+
+/// The query at the end would be refused, so `Stopped` shows that the ones before it were not answered.
+TEST(ClosestPoints, EndWhenTheyAreToldBeforeTheirQueriesAreAnswered) {
+  const Bvh bvh(icosphere(2));
+  std::vector<Vector3d> queries = queries_around(icosphere(2), 1000, 3);
+  queries.back().x() = std::nan("");
+  const std::atomic<bool> told = true;
+  for (const int threads : {1, 4})
+    EXPECT_THROW((void)closest_points(bvh, queries, {.threads = threads, .stop = {.cancel = &told}}), Stopped);
+  EXPECT_THROW((void)closest_points(bvh, queries, {.stop = {.deadline = StopToken::Clock::now()}}), Stopped);
 }
 
 /// Points around points of the mesh or beside it, at most `spread` of its size apart from each other in each

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -265,6 +266,21 @@ TEST(Deviations, EndWhenTheyAreTold) {
   EXPECT_THROW((void)vertex_deviations(mesh, other, options), Stopped);
   EXPECT_THROW((void)face_deviations(mesh, other, vertices, 0.01, options), Stopped);
   EXPECT_THROW((void)deviation_statistics(mesh, other, {}, options), Stopped);
+}
+
+/// Each point of the axis of a tube is equally far from all of its needles, so a query looks at thousands of them: the
+/// queries of this mesh take a second, and the deadline passes among the first ones.
+TEST(Deviations, EndAmongQueriesThatTakeLong) {
+  const TriangleMesh tube = needles(8000);
+  const Vector3d end = (tube.vertices[0] + tube.vertices[8000]) / 2, along = tube.vertices[1] - tube.vertices[0];
+  TriangleMesh axis{{}, {{0, 1, 2}}};
+  constexpr int count = 1000;
+  for (int i = 0; i < count; ++i) axis.vertices.emplace_back(end + i * (along / count));
+  const Bvh tree(tube);
+  (void)closest_point(tree, end);  // makes what the first query of a tree needs
+  DeviationOptions options{.threads = 1};
+  options.stop.deadline = StopToken::Clock::now() + std::chrono::milliseconds(5);
+  EXPECT_THROW((void)vertex_deviations(axis, tree, options), Stopped);
 }
 
 }  // namespace deviation_map_test

@@ -4,11 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <vector>
 
+#include "penetration/triangulate.h"
 #include "penetration/volumes.h"
 #include "reference/small_meshes.h"
 #include "solids.h"
@@ -22,6 +26,75 @@ using namespace solids;
 const TriangleMesh unit = box({0, 0, 0}, {1, 1, 1});
 /// Eight by eight squares on each side.
 const TriangleMesh fine = subdivided(subdivided(subdivided(unit)));
+
+/// Two boxes with a corner of each in the other, along whose curve a thousand pairs of triangles cross.
+TEST(IntersectionVolumes, AreNotFoundOnceTheTokenSaysStop) {
+  const TriangleMesh finer = subdivided(subdivided(fine));
+  const ClosedModel a(finer), b(moved(finer, {0.3, 0.2, 0.1}));
+  const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
+  const std::atomic<bool> told = true;
+  PlacedPair pair;
+  CrossingCurves curves;
+  Pieces pieces;
+  const auto place = [&] { pair.place(a.data(), identity, b.data(), identity); };
+  const auto stop = [&] { pair.stop_by({.cancel = &told}); };
+  const auto find_volumes = [&] { (void)VolumeFinder().find(pair, curves, pieces, VolumeFinder::Cut::Faces); };
+  place();
+  curves.find(pair, 0x1p-46);
+  stop();
+  EXPECT_THROW(pieces.find(pair, curves), Stopped);
+  place();
+  pieces.find(pair, curves);
+  stop();
+  EXPECT_THROW(find_volumes(), Stopped);
+  place();
+  EXPECT_NO_THROW(find_volumes()) << "after a search that ended early";
+}
+
+/// A prism of many sides.
+TriangleMesh drum(std::uint32_t corners) {
+  TriangleMesh mesh;
+  for (const double z : {0.0, 1.0})
+    for (std::uint32_t i = 0; i < corners; ++i) {
+      const double angle = 2 * std::acos(-1.0) * i / corners;
+      mesh.vertices.emplace_back(std::cos(angle), std::sin(angle), z);
+    }
+  const auto upper = [corners](std::uint32_t i) { return i + corners; };
+  for (std::uint32_t i = 2; i < corners; ++i) mesh.triangles.push_back({0, i, i - 1});
+  for (std::uint32_t i = 2; i < corners; ++i) mesh.triangles.push_back({upper(0), upper(i - 1), upper(i)});
+  for (std::uint32_t i = 0; i < corners; ++i) {
+    const std::uint32_t next = i + 1 < corners ? i + 1 : 0;
+    mesh.triangles.push_back({i, next, upper(next)});
+    mesh.triangles.push_back({i, upper(next), upper(i)});
+  }
+  return mesh;
+}
+
+TEST(Triangulate, EndsWithinAPolygonOnceTheTokenSaysStop) {
+  constexpr std::uint32_t count = 400;
+  const ClosedModel model(drum(count));
+  const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
+  PlacedPair pair;
+  pair.place(model.data(), identity, model.data(), identity);
+  const CrossingCurves none;
+  const std::vector<Vec3>& at = model.data().positions;
+  const auto is_below = [&](std::uint32_t v) { return at[v].z == 0; };
+  std::uint32_t lower = 0;  // a triangle of the lower cap, whose corners the numbers of the model do not follow
+  while (!std::all_of(model.data().triangles[lower].begin(), model.data().triangles[lower].end(), is_below)) ++lower;
+  const PiecePlane cap(pair, none, 0, lower);
+  std::vector<PieceCorner> corners;
+  for (std::uint32_t v = 0; v < at.size(); ++v)
+    if (is_below(v)) corners.push_back({PieceCorner::Kind::Vertex, v});
+  const auto angle = [&](const PieceCorner& corner) { return std::atan2(at[corner.index].y, at[corner.index].x); };
+  std::sort(corners.begin(), corners.end(), [&](auto& p, auto& q) { return angle(p) > angle(q); });
+  const std::span<const PieceCorner> border(corners);
+  std::vector<CornerTriple> triangles;
+  EXPECT_EQ(triangulate(cap, {&border, 1}, triangles), 0);
+  EXPECT_EQ(triangles.size(), count - 2);
+  const std::atomic<bool> told = true;
+  pair.stop_by({.cancel = &told});
+  EXPECT_THROW((void)triangulate(cap, {&border, 1}, triangles), Stopped);
+}
 
 /// What two models have in common, cut both ways.
 struct Cuts {

@@ -79,15 +79,16 @@ struct ClosestPoint {
 /// near, the same one is named each time. Any number of threads may call it.
 [[nodiscard]] ClosestPoint closest_point(const Bvh& bvh, const Eigen::Vector3d& query);
 
-/// How many queries are answered at once.
+/// How queries are answered.
 struct QueryOptions {
-  int threads = 0;  ///< 0: as many as OpenMP has. The answers are the same for every value.
+  int threads = 0;      ///< 0: as many as OpenMP has. The answers are the same for every value.
+  StopToken stop = {};  ///< `closest_points` throws `Stopped` within a few queries once this says so
 };
 
 /// `closest_point` for each of many queries, with the same answers to the last bit. Each search begins at the triangle
 /// that the query before it found, and up to sixteen queries near one another share a walk over the tree. Queries whose
 /// neighbours do not follow one another are answered in the order of a space-filling curve. Throws `InvalidInput` as
-/// above when one of the queries is to be refused. Expected O(log n) for each.
+/// above when one of the queries is to be refused, `Stopped` as the options say. Expected O(log n) for each.
 [[nodiscard]] std::vector<ClosestPoint> closest_points(const Bvh& bvh, std::span<const Eigen::Vector3d> queries,
                                                        const QueryOptions& options = {});
 

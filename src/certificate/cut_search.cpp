@@ -14,6 +14,9 @@ constexpr std::uint32_t steps_between_queries = 8;
 constexpr std::uint32_t halve_from_depth = 60, halve_from_rounds = 24;
 constexpr std::uint32_t crowded_piece = Piece::capacity - 4;
 
+/// Steps of a cover between two looks at the clock: one may ask for a nearest triangle among thousands.
+constexpr std::uint64_t steps_between_looks = 16;
+
 bool must_halve(const Piece& piece) {
   return piece.depth >= halve_from_depth || piece.rounds >= halve_from_rounds || piece.count > crowded_piece;
 }
@@ -40,7 +43,10 @@ bool first_is_inside(const Piece& piece, const CornerDistances& sides, const Cho
 
 CutSearch::CutSearch(const Bvh::Data& target, const std::vector<std::array<std::uint32_t, 3>>& neighbours,
                      const Goal& goal, double magnitude, std::size_t max_patch)
-    : b_(target), tolerance_(goal.tolerance), parity_(target, neighbours, goal, magnitude, max_patch) {
+    : b_(target),
+      stop_(goal.stop),
+      tolerance_(goal.tolerance),
+      parity_(target, neighbours, goal, magnitude, max_patch) {
   for (std::uint32_t depth = 0; depth <= deepest_cut; ++depth) {
     const double accepted = goal.tolerance - goal.slack - depth * goal.cut_slack;
     // A length is rounded four times on its way from the offset, relative to itself.
@@ -96,6 +102,7 @@ bool CutSearch::try_candidates(const Piece& piece) {
 
 CutSearch::Outcome CutSearch::prove(const TriangleCorners& triangle, std::uint32_t& hint, std::vector<ProofNode>& nodes,
                                     std::uint64_t max_steps) {
+  stop_.check();
   nodes_ = &nodes;
   steps_left_ = max_steps;
   too_far_ = false;
@@ -189,7 +196,7 @@ bool CutSearch::cover_part(Piece part) {
 
 bool CutSearch::cover(Piece piece) {
   while (steps_left_ > 0) {
-    --steps_left_;
+    if (--steps_left_ % steps_between_looks == 0) stop_.check();
     const Farthest farthest = farthest_corner(piece, triangle_at(piece.slot));
     if (farthest.squared <= accepted_squared_[piece.depth]) {
       emit(piece.slot);

@@ -31,7 +31,8 @@ class CutSearch {
   };
 
   /// Appends the tree for a triangle given in B's working frame; on failure leaves `nodes` as they were. Starts with
-  /// the triangle of B at `hint`, and leaves there the one that served last.
+  /// the triangle of B at `hint`, and leaves there the one that served last. Throws `Stopped` soon after the token of
+  /// the goal says so; `nodes` are of no use then.
   [[nodiscard]] Outcome prove(const TriangleCorners& triangle, std::uint32_t& hint, std::vector<ProofNode>& nodes,
                               std::uint64_t max_steps);
 
@@ -78,6 +79,7 @@ class CutSearch {
   void emit(std::uint32_t slot, ProofNode::Kind kind = ProofNode::Kind::Near);
 
   const Bvh::Data& b_;
+  StopToken stop_;
   double tolerance_ = 0;
   /// By the cuts behind a piece: squared distances that prove as computed; negative where none does.
   std::array<double, deepest_cut + 1> accepted_squared_{};

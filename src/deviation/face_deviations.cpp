@@ -86,9 +86,9 @@ bool advance(std::vector<FaceSearch>& faces, const MeshView& mesh, std::vector<P
                    [&](std::size_t a, std::size_t b) { return faces[a].next() < faces[b].next(); });
   constexpr std::size_t faces_per_task = 256;
   for_each_range(open.size(), faces_per_task, [&](std::size_t begin, std::size_t end) {
-    stop.check();
     Proximity& near = proximity[static_cast<std::size_t>(omp_get_thread_num())];
     for (std::size_t i = begin; i < end; ++i) {
+      stop.check();  // a look costs less than 1% of the cheapest test, and some tests take milliseconds
       FaceSearch& face = faces[open[i]];
       const double multiple = face.next(), tolerance = multiple * error_bound;
       std::uint32_t hint = face.hint;  // a copy: the next test must not depend on what this one met

@@ -14,11 +14,10 @@ namespace meshbound {
 template <class Take>
 void measure_points(std::span<const Eigen::Vector3d> points, const Bvh& other, const DeviationOptions& options,
                     Take&& take) {
-  constexpr std::size_t points_between_looks = std::size_t{1} << 16;  // some 50 ms of one thread
-  for (std::size_t begin = 0; begin < points.size(); begin += points_between_looks) {
-    options.stop.check();
-    const auto batch = points.subspan(begin, std::min(points_between_looks, points.size() - begin));
-    const std::vector<ClosestPoint> found = closest_points(other, batch, {options.threads});
+  constexpr std::size_t points_per_batch = std::size_t{1} << 16;  // answers take 10 MB
+  for (std::size_t begin = 0; begin < points.size(); begin += points_per_batch) {
+    const auto batch = points.subspan(begin, std::min(points_per_batch, points.size() - begin));
+    const std::vector<ClosestPoint> found = closest_points(other, batch, {options.threads, options.stop});
     for (std::size_t i = 0; i < found.size(); ++i) take(begin + i, found[i]);
   }
 }

@@ -25,6 +25,10 @@ namespace {
 /// Queries that make one task: some half a millisecond of work.
 constexpr std::size_t queries_per_task = 1024;
 
+/// Queries between two looks at the clock: each may take a millisecond where tens of thousands of triangles are equally
+/// near, as around a hub.
+constexpr std::size_t queries_between_looks = 32;
+
 /// The answer where the mesh is a point beside its distance: see `distance_to_point_like`.
 ClosestPoint closest_of_point_like(const Bvh::Data& data, const Eigen::Vector3d& query) {
   const Eigen::Vector3d point = to_eigen(data.frame.to_model(data.vertices[0]));
@@ -50,8 +54,8 @@ constexpr double allowed_loss = 0.25;
 /// Queries of one thread: each starts at the triangle that the one before it found, which changes no answer.
 class PointQueries {
  public:
-  explicit PointQueries(const Bvh::Data& data, std::uint32_t hint = no_slot)
-      : data_(data), map_(data.frame), kernel_(point_kernel()), hint_(hint) {}
+  explicit PointQueries(const Bvh::Data& data, std::uint32_t hint = no_slot, const StopToken& stop = {})
+      : data_(data), map_(data.frame), kernel_(point_kernel()), hint_(hint), stop_(stop) {}
 
   ClosestPoint operator()(const Eigen::Vector3d& query) {
     ClosestPoint answer;
@@ -59,12 +63,17 @@ class PointQueries {
     return answer;
   }
 
-  /// Answers several queries: neighbours that follow one another together, as long as that is of use.
+  /// Answers several queries: neighbours that follow one another together, as long as that is of use. Throws `Stopped`.
   void answer(std::span<const Eigen::Vector3d> queries, std::span<ClosestPoint> answers) {
     std::size_t alone = 1;  // so many more are answered one by one: the first one, for a hint
     std::size_t pause = 0;
     Group group;
+    std::size_t next_look = 0;
     for (std::size_t begin = 0; begin < queries.size();) {
+      if (begin >= next_look) {
+        stop_.check();
+        next_look = begin + queries_between_looks;
+      }
       if (alone > 0) {
         answer_one(queries[begin], answers[begin]);
         ++begin;
@@ -169,6 +178,7 @@ class PointQueries {
   PointKernel kernel_;
   std::uint32_t hint_;
   Vec3 last_;  ///< the query that found it
+  StopToken stop_;
 };
 
 /// Answers the queries with these indices, one after another.
@@ -208,7 +218,7 @@ std::vector<ClosestPoint> closest_points(const Bvh& bvh, std::span<const Eigen::
   const std::size_t useful = 1 + queries.size() / queries_per_task;
   with_team(static_cast<int>(std::min(wanted, useful)), [&] {
     for_each_range(queries.size(), queries_per_task, [&](std::size_t begin, std::size_t end) {
-      PointQueries ask(bvh.data());
+      PointQueries ask(bvh.data(), no_slot, options.stop);
       if (order.empty())
         ask.answer(queries.subspan(begin, end - begin), std::span(answers).subspan(begin, end - begin));
       else

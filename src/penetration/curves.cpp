@@ -26,7 +26,10 @@ void CrossingCurves::find(PlacedPair& pair, double node_error) {
   });
   for (std::uint32_t i = 0; i < segments.size(); ++i) link(pair, i);
   group_segments(pair);
-  for (CurveNode& node : nodes) set_position(pair, node_error, node);
+  for (CurveNode& node : nodes) {
+    pair.count_step();
+    set_position(pair, node_error, node);
+  }
   group_nodes(pair);
 }
 
@@ -124,6 +127,7 @@ void CrossingCurves::group_nodes(PlacedPair& pair) {
     const CurveNode &a = nodes[i], &b = nodes[j];
     if (a.side != b.side) return a.side < b.side;
     if (a.edge != b.edge) return a.edge < b.edge;
+    pair.count_step();
     return i != j && comes_before(pair, a, b);
   });
   for (std::uint32_t side = 0; side < 2; ++side) node_ranges_[side].clear(pair.model(side).edges.size());

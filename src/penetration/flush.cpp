@@ -72,6 +72,8 @@ class FlushSearch {
   }
 
   void add(const std::array<std::uint32_t, 2>& triangles, std::vector<FlushFace>& faces) {
+    constexpr std::uint64_t steps_of_clipping = 64;  // some microseconds
+    pair_.count_steps(steps_of_clipping);
     const Triangle &s = pair_.model(0).triangles[triangles[0]], &t = pair_.model(1).triangles[triangles[1]];
     const PiecePlane plane(pair_, curves_, 0, triangles[0]);
     std::vector<ExactVector> polygon;

@@ -142,6 +142,7 @@ int PiecePlane::area_sign(std::span<const std::span<const PieceCorner>> cycles) 
 
 bool PiecePlane::is_around(std::span<const PieceCorner> outer, std::span<const PieceCorner> inner) const {
   for (const PieceCorner& p : inner) {
+    count_steps(outer.size());
     bool inside = false, on_line = false;
     for (std::size_t i = 0; i < outer.size() && !on_line; ++i) {
       const PieceCorner &a = outer[i], &b = outer[i + 1 < outer.size() ? i + 1 : 0];

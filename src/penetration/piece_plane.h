@@ -50,6 +50,9 @@ class PiecePlane {
   };
   [[nodiscard]] Seen see(PieceCorner corner) const;
 
+  /// `PlacedPair::count_steps`.
+  void count_steps(std::uint64_t count) const { pair_->count_steps(count); }
+
   /// Sign of the turn at q on the way from p to r, for the exact positions, without perturbation.
   [[nodiscard]] int turn(const Seen& p, const Seen& q, const Seen& r) const {
     const double ax = q.x - p.x, ay = q.y - p.y, bx = r.x - p.x, by = r.y - p.y;

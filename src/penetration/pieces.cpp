@@ -56,6 +56,7 @@ void Pieces::trace_cycle(std::uint32_t side, std::uint32_t triangle, std::uint32
   const std::uint32_t first = segment;
   std::uint32_t piece = no_index;
   do {
+    pair_->count_step();
     traced_[side][segment] = 1;
     const std::uint32_t begin = curves_->segments[segment].begin(side), end = curves_->segments[segment].end(side);
     corners.push_back({PieceCorner::Kind::Node, begin});

@@ -36,11 +36,15 @@ class PlacedPair {
 
   /// Makes what runs on the pair from here on throw `Stopped` soon after this token says so.
   void stop_by(const StopToken& stop) { stop_ = stop; }
-  /// Counts a step of about 100 ns and checks the token once in a while.
-  void count_step() {
-    constexpr std::uint32_t steps_between_looks = 1024;
-    if (++steps_ % steps_between_looks == 0) stop_.check();
+  /// Counts steps of about 100 ns and checks the token once in a while.
+  void count_steps(std::uint64_t count) {
+    constexpr std::uint64_t steps_between_looks = 1024;
+    steps_ += count;
+    if (steps_ < steps_between_looks) return;
+    steps_ = 0;
+    stop_.check();
   }
+  void count_step() { count_steps(1); }
 
   [[nodiscard]] const ClosedModel::Data& model(std::uint32_t side) const { return *sides_[side].model; }
   /// The side with the larger model, and the mapping to its working frame from that of the other side's tree.
@@ -139,7 +143,7 @@ class PlacedPair {
   bool is_exact_ready_ = false;
   std::uint64_t exact_decisions_ = 0, perturbed_decisions_ = 0;
   StopToken stop_;
-  std::uint32_t steps_ = 0;
+  std::uint64_t steps_ = 0;  ///< since the last look at `stop_`
 };
 
 }  // namespace meshbound

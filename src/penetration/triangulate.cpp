@@ -15,6 +15,9 @@ namespace {
 using Seen = PiecePlane::Seen;
 using Ring = std::vector<Seen>;
 
+/// Tests of boxes or points that take as long as a step of `count_steps`.
+constexpr std::size_t tests_per_step = 16;
+
 void append(const PiecePlane& plane, std::span<const PieceCorner> cycle, Ring& ring) {
   for (const PieceCorner& corner : cycle) ring.push_back(plane.see(corner));
 }
@@ -41,6 +44,7 @@ bool segments_cross(const PiecePlane& plane, const Seen& p, const Seen& q, const
 }
 
 bool crosses_ring(const PiecePlane& plane, const Seen& p, const Seen& q, const Ring& ring) {
+  plane.count_steps(1 + ring.size() / tests_per_step);
   for (std::size_t i = 0; i < ring.size(); ++i)
     if (segments_cross(plane, p, q, ring[i], ring[i + 1 < ring.size() ? i + 1 : 0])) return true;
   return false;
@@ -164,6 +168,7 @@ class EarCutter {
     for (const EarQuality quality : {EarQuality::Clear, EarQuality::Flat, EarQuality::Touched, EarQuality::Left}) {
       std::size_t i = from;
       do {
+        plane_.count_steps(1);
         if (is_ear(i, quality)) return i;
         i = next_[i];
       } while (i != from);
@@ -179,6 +184,7 @@ class EarCutter {
   }
 
   [[nodiscard]] bool is_clear(std::size_t i) const {
+    plane_.count_steps(left_ / tests_per_step);
     const Seen &p = ring_[previous_[i]], &q = ring_[i], &r = ring_[next_[i]];
     const double error = 2 * (p.error + q.error + r.error);
     const double left = std::min({p.x, q.x, r.x}) - error, right = std::max({p.x, q.x, r.x}) + error,
@@ -195,6 +201,7 @@ class EarCutter {
   }
 
   [[nodiscard]] bool is_entered_by_no_edge(std::size_t i) const {
+    plane_.count_steps(left_);
     const std::array<Seen, 3> ear{ring_[previous_[i]], ring_[i], ring_[next_[i]]};
     for (std::size_t j = next_[i]; j != previous_[i]; j = next_[j])
       if (enters(plane_, ring_[j], ring_[next_[j]], ear)) return false;

@@ -128,7 +128,10 @@ void VolumeFinder::visit_fans(const Shell& shell, const Visit& visit) {
   for (const std::uint32_t index : shell.pieces) {
     const Piece& piece = pieces_->pieces[index];
     for (const std::span<const PieceCorner> cycle : pieces_->border_of(piece))
-      for (std::size_t k = 2; k < cycle.size(); ++k) visit(piece.side, CornerTriple{cycle[0], cycle[k - 1], cycle[k]});
+      for (std::size_t k = 2; k < cycle.size(); ++k) {
+        pair_->count_step();
+        visit(piece.side, CornerTriple{cycle[0], cycle[k - 1], cycle[k]});
+      }
   }
 }
 
@@ -182,6 +185,7 @@ void VolumeFinder::triangulate_shell(Shell& shell, Cut cut) {
 }
 
 void VolumeFinder::triangulate_face(std::span<const std::uint32_t> face, Cut cut, Shell& shell) {
+  pair_->count_steps(face.size());
   const Piece& first = pieces_->pieces[face[0]];
   Patch& patch = shell.patches[first.side];
   if (face.size() == 1 && first.is_whole_triangle()) {
@@ -215,6 +219,7 @@ int VolumeFinder::parity_of(const Shell& shell, const Vec3& from, const Vec3& di
   int parity = 0;
   for (std::uint32_t side = 0; side < 2; ++side)
     for (const PatchTriangle& t : shell.patches[side].triangles) {
+      pair_->count_step();
       const Vec3 a = position(side, t.corners[0]) - from, b = position(side, t.corners[1]) - from,
                  c = position(side, t.corners[2]) - from;
       const double u = dot(direction, cross(a, b)), v = dot(direction, cross(b, c)), w = dot(direction, cross(c, a));

@@ -66,8 +66,7 @@ void draw_deviation(Picture& picture, int left, const DeviationScene& scene, con
     points.push_back(point.position);
     errors.push_back(point.error);
   });
-  options.stop.check();
-  const std::vector<ClosestPoint> found = closest_points(*scene.other, points, {options.threads});
+  const std::vector<ClosestPoint> found = closest_points(*scene.other, points, {options.threads, options.stop});
   std::size_t next = 0;
   for_each_pixel(image, [&](int x, int y, std::uint32_t triangle) {
     constexpr double flat = 0.55;  // share of the colour that no light changes, so that it can be read
