@@ -249,11 +249,19 @@ inline double certified_distance(const Bvh::Data& data, const Vec3& p, double ne
                                  QueryCounters& counters) {
   ++counters.queries;
   double least = std::sqrt(nearest_squared);
-  const std::uint32_t last = data.triangle_count() - 1;
+  const Vec<Double4> p4 = broadcast4(p);
   visit_near(data, p, nearest_squared, counters, [&](std::uint32_t block) {
     counters.triangles += block_width;
-    for (std::uint32_t lane = 0; lane < block_width && block * block_width + lane <= last; ++lane)
-      least = std::min(least, best_separation(triangle_at(data, block * block_width + lane), p, least));
+    const std::array<std::uint32_t, block_width> slots = slots_of_block(data, block);
+    const CornerTriangle<Double4> t = triangles_at(data, slots);
+    // What `best_separation` begins with, which mostly is enough.
+    const Double4 separated = separation(t, p4, closest_on_triangle(t, p4).offset);
+    const Mask4 passes = separated >= broadcast4(least);
+    constexpr unsigned all_lanes = (1U << block_width) - 1;
+    for (unsigned fails = ~lane_bits(passes) & all_lanes; fails != 0; fails &= fails - 1) {
+      const std::uint32_t slot = slots[static_cast<std::size_t>(std::countr_zero(fails))];
+      least = std::min(least, best_separation(triangle_at(data, slot), p, least));
+    }
     return nearest_squared;
   });
   return least;

@@ -85,13 +85,13 @@ template <class Real>
 /// A proven lower bound (but for `dual_error`) of the distance from p to the triangle, by the plane that separates them
 /// with normal `direction`: min over the corners c of direction . (p - c) / |direction|. Tight when `direction` is the
 /// offset from the true closest point. 0 where that plane does not separate.
-inline double separation(const CornerTriangle<double>& t, Vec3 p, Vec3 direction) {
-  const double norm = length(direction);
-  if (!(norm > 0)) return 0;
-  const Vec3 ap = p - t.a;
-  const double at_a = dot(direction, ap), at_b = dot(direction, ap - t.ab), at_c = dot(direction, ap - t.ac);
-  const double least = at_a < at_b ? (at_a < at_c ? at_a : at_c) : (at_b < at_c ? at_b : at_c);
-  return least > 0 ? least / norm : 0;
+template <class Real>
+Real separation(const CornerTriangle<Real>& t, const Vec<Real>& p, const Vec<Real>& direction) {
+  const Real norm = square_root(squared_length(direction));
+  const Vec<Real> ap = p - t.a;
+  const Real at_a = dot(direction, ap), at_b = dot(direction, ap - t.ab), at_c = dot(direction, ap - t.ac);
+  const Real at_b_or_c = select(at_b < at_c, at_b, at_c), least = select(at_a < at_b_or_c, at_a, at_b_or_c);
+  return select(norm > 0.0, select(least > 0.0, least / norm, Real{}), Real{});
 }
 
 }  // namespace MESHBOUND_ISA

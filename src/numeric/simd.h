@@ -57,6 +57,7 @@ inline Double4 minimum(Double4 a, Double4 b) {
 #endif
 }
 
+inline double square_root(double a) { return __builtin_sqrt(a); }
 inline Double4 square_root(Double4 a) {
 #if defined(__AVX2__)
   return _mm256_sqrt_pd(a);
