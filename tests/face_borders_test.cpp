@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "penetration/flush.h"
 #include "penetration/triangulate.h"
 #include "penetration/volumes.h"
 #include "reference/small_meshes.h"
@@ -49,6 +50,26 @@ TEST(IntersectionVolumes, AreNotFoundOnceTheTokenSaysStop) {
   EXPECT_THROW(find_volumes(), Stopped);
   place();
   EXPECT_NO_THROW(find_volumes()) << "after a search that ended early";
+}
+
+/// Two solids stand on one plane, with a square of two triangles of each in common there. Around it are pairs that
+/// share an edge or a corner only. A told token shows that these are not cut: the steps to its next look are not
+/// reached.
+TEST(FlushFaces, AreCutOnlyWhereTrianglesHaveAreaInCommon) {
+  TriangleMesh taller = moved(fine, {0.875, 0.875, 0});
+  for (Eigen::Vector3d& p : taller.vertices) p.z() *= 2;
+  const ClosedModel a(fine), b(taller);
+  const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
+  PlacedPair pair;
+  CrossingCurves curves;
+  Pieces pieces;
+  pair.place(a.data(), identity, b.data(), identity);
+  curves.find(pair, 0x1p-46);
+  pieces.find(pair, curves);
+  EXPECT_GE(curves.flush_pairs.size(), 20U);
+  const std::atomic<bool> told = true;
+  pair.stop_by({.cancel = &told});
+  EXPECT_NO_THROW(EXPECT_EQ(find_flush_faces(pair, curves, pieces).size(), 2U));
 }
 
 /// A prism of many sides.

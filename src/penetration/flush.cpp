@@ -59,6 +59,9 @@ ExactVector middle_of(const std::vector<ExactVector>& polygon) {
   return sum;
 }
 
+/// What it takes to look whether two triangles of one plane have area in common, and to cut what they have (measured).
+constexpr std::uint64_t steps_of_looking = 16, steps_of_cutting = 128;
+
 class FlushSearch {
  public:
   FlushSearch(PlacedPair& pair, CrossingCurves& curves, const Pieces& pieces)
@@ -72,10 +75,11 @@ class FlushSearch {
   }
 
   void add(const std::array<std::uint32_t, 2>& triangles, std::vector<FlushFace>& faces) {
-    constexpr std::uint64_t steps_of_clipping = 64;  // some microseconds
-    pair_.count_steps(steps_of_clipping);
     const Triangle &s = pair_.model(0).triangles[triangles[0]], &t = pair_.model(1).triangles[triangles[1]];
     const PiecePlane plane(pair_, curves_, 0, triangles[0]);
+    pair_.count_steps(steps_of_looking);
+    if (an_edge_separates(0, s, t, plane.axes()) || an_edge_separates(1, t, s, plane.axes())) return;
+    pair_.count_steps(steps_of_cutting);
     std::vector<ExactVector> polygon;
     for (const std::uint32_t v : s) polygon.push_back(to_vector(pair_.exact({0, v})));
     for (std::size_t k = 0; k < 3 && !polygon.empty(); ++k)
@@ -96,6 +100,39 @@ class FlushSearch {
   }
 
  private:
+  /// Whether the line along an edge of `triangle` of a side has the whole triangle `other` of the other side on its
+  /// right or on it. Two triangles of one plane that turn left have no area in common if and only if an edge of one of
+  /// them does so. Most pairs along faces that touch are neighbours without common area, and cutting them exactly takes
+  /// several times as long.
+  bool an_edge_separates(std::uint32_t side, const Triangle& triangle, const Triangle& other,
+                         const std::array<int, 2>& axes) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const PairVertex from{side, triangle[k]}, to{side, triangle[next_corner(k)]};
+      if (std::all_of(other.begin(), other.end(), [&](std::uint32_t v) {
+            return turn_of(from, to, {1 - side, v}, axes) <= 0;
+          }))
+        return true;
+    }
+    return false;
+  }
+
+  /// Sign of the turn at q on the way from p to r, seen along the third axis.
+  int turn_of(PairVertex p, PairVertex q, PairVertex r, const std::array<int, 2>& axes) {
+    const auto error = [&](PairVertex v) { return 2 * pair_.error(v.side); };
+    const auto seen = [&](PairVertex v) {
+      const Vec3& at = pair_.local(v);
+      return std::array{coordinate(at, axes[0]), coordinate(at, axes[1])};
+    };
+    const std::array<double, 2> at_p = seen(p), at_q = seen(q), at_r = seen(r);
+    const double h = error(p) + std::max(error(q), error(r));
+    const int sign = turn_beyond_error(at_q[0] - at_p[0], at_q[1] - at_p[1], at_r[0] - at_p[0], at_r[1] - at_p[1], h);
+    if (sign != 0) return sign;
+    const ExactPoint to_q = pair_.exact(q) - pair_.exact(p), to_r = pair_.exact(r) - pair_.exact(p);
+    const mpz_class exact_turn =
+        coordinate(to_q, axes[0]) * coordinate(to_r, axes[1]) - coordinate(to_q, axes[1]) * coordinate(to_r, axes[0]);
+    return sgn(exact_turn);
+  }
+
   /// The piece of a triangle that contains a polygon, which lies in one of its pieces.
   std::uint32_t piece_around(std::uint32_t side, std::uint32_t triangle, const std::vector<ExactVector>& polygon) {
     const std::vector<std::uint32_t>& candidates = pieces_in_[side][triangle];

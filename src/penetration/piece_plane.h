@@ -34,6 +34,17 @@ using CornerTriple = std::array<PieceCorner, 3>;
 [[nodiscard]] ExactNode exact_position_of(PlacedPair& pair, const CrossingCurves& curves, std::uint32_t side,
                                           PieceCorner corner);
 
+/// Sign of the determinant ax * by - ay * bx of differences that are off by at most `h` each; 0 where that or rounding
+/// could hide it.
+[[nodiscard]] inline int turn_beyond_error(double ax, double ay, double bx, double by, double h) {
+  const double magnitude = std::fabs(ax * by) + std::fabs(ay * bx);
+  const double sum = std::fabs(ax) + std::fabs(ay) + std::fabs(bx) + std::fabs(by) + 4 * h;
+  const double bound = 8 * unit_roundoff * magnitude + 2 * h * sum + 0x1p-1000;
+  const double value = ax * by - ay * bx;
+  if (value > bound) return 1;
+  return value < -bound ? -1 : 0;
+}
+
 /// The plane of a triangle, for the corners of its pieces: projected along an axis that is not parallel to the plane,
 /// so that the triangle turns counter-clockwise.
 class PiecePlane {
@@ -55,15 +66,10 @@ class PiecePlane {
 
   /// Sign of the turn at q on the way from p to r, for the exact positions, without perturbation.
   [[nodiscard]] int turn(const Seen& p, const Seen& q, const Seen& r) const {
-    const double ax = q.x - p.x, ay = q.y - p.y, bx = r.x - p.x, by = r.y - p.y;
-    // As in `orientation`: h is the error of a difference.
+    // As in `orientation`: the error of a difference.
     const double h = p.error + std::max(q.error, r.error);
-    const double magnitude = std::fabs(ax * by) + std::fabs(ay * bx);
-    const double sum = std::fabs(ax) + std::fabs(ay) + std::fabs(bx) + std::fabs(by) + 4 * h;
-    const double bound = 8 * unit_roundoff * magnitude + 2 * h * sum + 0x1p-1000;
-    const double value = ax * by - ay * bx;
-    if (value > bound) return 1;
-    return value < -bound ? -1 : exact_turn(p.corner, q.corner, r.corner);
+    const int sign = turn_beyond_error(q.x - p.x, q.y - p.y, r.x - p.x, r.y - p.y, h);
+    return sign != 0 ? sign : exact_turn(p.corner, q.corner, r.corner);
   }
   [[nodiscard]] int turn(PieceCorner p, PieceCorner q, PieceCorner r) const { return turn(see(p), see(q), see(r)); }
   /// Twice the area enclosed by a cycle in the projection, rounded; and the exact sign of the sum of those of cycles.

@@ -35,7 +35,10 @@ class PlacedPair {
   void place(const ClosedModel::Data& a, const Pose& pose_a, const ClosedModel::Data& b, const Pose& pose_b);
 
   /// Makes what runs on the pair from here on throw `Stopped` soon after this token says so.
-  void stop_by(const StopToken& stop) { stop_ = stop; }
+  void stop_by(const StopToken& stop) {
+    stop_ = stop;
+    steps_ = 0;
+  }
   /// Counts steps of about 100 ns and checks the token once in a while.
   void count_steps(std::uint64_t count) {
     constexpr std::uint64_t steps_between_looks = 1024;
