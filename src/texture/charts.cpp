@@ -77,6 +77,13 @@ std::optional<double> upper_at_equal_corners(const TexturedTriangle& a, const Te
   return upper;
 }
 
+/// The box of a triangle in space, grown by `reach` and by more than rounding may take away.
+Eigen::AlignedBox3d place_within_reach(const ChartTriangle& a, double reach) {
+  const Eigen::AlignedBox3d place = place_of(*a.source);
+  return grown(place,
+               reach * (1 + 0x1p-40) + 0x1p-50 * place.max().cwiseAbs().cwiseMax(place.min().cwiseAbs()).maxCoeff());
+}
+
 ExactUnits units_of(const TexturedMesh& mesh) {
   ExactUnits units{no_bit, no_bit};
   for (const TexturedTriangle& t : mesh.triangles)
@@ -122,7 +129,7 @@ Charts::Charts(const TexturedMesh& mesh) : mesh_(mesh), units_(units_of(mesh)) {
     in_texture.push_back(box);
     in_space.push_back(places_.back());
   }
-  with_area_.emplace(with_area);
+  with_area_.emplace(with_area, places_);
   without_area_in_texture_.emplace(in_texture);
   without_area_in_space_.emplace(in_space);
 }
@@ -138,7 +145,7 @@ void Charts::find_without_area(const Eigen::AlignedBox3d& box, const BoxTree& tr
 /// Appends the triangles whose boxes in the texture meet that of `a`.
 void Charts::find_in_texture(const ChartTriangle& a, std::vector<std::uint32_t>& found) const {
   const Eigen::AlignedBox3d box = box_in_texture(*a.source);
-  with_area_->find(box, found);
+  with_area_->in_texture().find(box, found);
   find_without_area(box, *without_area_in_texture_, found);
 }
 
@@ -154,20 +161,16 @@ bool Charts::may_have_among_others(const ChartTriangle& a) const {
 
 void Charts::find_near_without_area(const ChartTriangle& a, double reach, ChartCandidates& found) const {
   const Eigen::AlignedBox3d in_texture = box_in_texture(*a.source);
-  Eigen::AlignedBox3d place = place_of(*a.source);
-  // More by what rounding may take away.
-  const double margin =
-      reach * (1 + 0x1p-40) + 0x1p-50 * place.max().cwiseAbs().cwiseMax(place.min().cwiseAbs()).maxCoeff();
-  place.min().array() -= margin;
-  place.max().array() += margin;
-  with_area_->find(in_texture, found.indices);
-  find_without_area(place, *without_area_in_space_, found.indices);
+  with_area_->in_texture().find(in_texture, found.indices);
+  find_without_area(place_within_reach(a, reach), *without_area_in_space_, found.indices);
   for (const std::uint32_t i : found.indices)
     if (in_texture.intersects(box_in_texture(mesh_.triangles[i]))) found.near.push_back(&triangles_[i]);
 }
 
 void Charts::find_others(const ChartTriangle& a, ChartCandidates& found) const {
+  found.others.clear();
   found.indices.clear();
+  if (a.chart == Chart::Area) with_area_->in_texture().find(box_in_texture(*a.source), found.indices);
   find_without_area(box_in_texture(*a.source), *without_area_in_texture_, found.indices);
   std::vector<const ChartTriangle*> near = found.near;
   std::sort(near.begin(), near.end());
@@ -181,13 +184,12 @@ void Charts::find_candidates(const ChartTriangle& a, double reach, ChartCandidat
   found.copy.reset();
   found.indices.clear();
   if (a.chart != Chart::Area) return find_near_without_area(a, reach, found);
-  find_in_texture(a, found.indices);
+  with_area_->find(box_in_texture(*a.source), place_within_reach(a, reach), found.indices);
   const Eigen::AlignedBox3d place = place_of(*a.source);
   const Plane plane(*a.source);
   const Eigen::Vector2d& origin = a.source->coordinates[0];
   const Outline outline(a, origin);
   const auto seems_to_share_area = [&](const ChartTriangle& b) {
-    if (b.chart != Chart::Area) return false;
     const Outline of_b(b, origin);
     return seems_to_overlap(outline, of_b) && seems_to_overlap(of_b, outline);
   };
@@ -195,20 +197,14 @@ void Charts::find_candidates(const ChartTriangle& a, double reach, ChartCandidat
     return squared_distance(places_[b.number], place) <= reach * reach && !plane.seems_apart_from(*b.source, reach) &&
            !Plane(*b.source).seems_apart_from(*a.source, reach);
   };
-  found.is_near.clear();
   for (const std::uint32_t i : found.indices) {
     const ChartTriangle& b = triangles_[i];
-    const bool is_near = seems_within_reach(b) && seems_to_share_area(b);
-    found.is_near.push_back(is_near ? 1 : 0);
-    if (!is_near) continue;
+    if (!seems_within_reach(b) || !seems_to_share_area(b)) continue;
+    found.near.push_back(&b);
     const std::optional<double> upper = upper_at_equal_corners(*a.source, *b.source);
     if (upper && *upper <= (found.copy ? found.copy->upper : reach)) found.copy = {&b, *upper};
   }
-  for (std::size_t k = 0; k < found.indices.size(); ++k) {
-    const ChartTriangle& b = triangles_[found.indices[k]];
-    const bool is_near = found.copy ? found.copy->triangle == &b : found.is_near[k] != 0;
-    (is_near ? found.near : found.others).push_back(&b);
-  }
+  if (found.copy) found.near.assign(1, found.copy->triangle);
 }
 
 }  // namespace meshbound

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "simplify/cover/box_tree.h"
+#include "simplify/cover/placed_boxes.h"
 #include "texture/overlay.h"
 
 namespace meshbound {
@@ -33,10 +34,9 @@ struct ChartCandidates {
   /// decides about some. If there is a `copy`, only this one. Where the triangle has no area in the texture: all with
   /// an area that may have coordinates of it, and those without one whose boxes in space are within reach.
   std::vector<const ChartTriangle*> near;
-  std::vector<const ChartTriangle*> others;  ///< `find_others` finds those of a triangle without an area
+  std::vector<const ChartTriangle*> others;  ///< set by `find_others`
   std::optional<ChartCopy> copy;             ///< the nearest one, if one is within reach
-  std::vector<std::uint32_t> indices;        ///< of the triangles above in their mesh
-  std::vector<std::uint8_t> is_near;         ///< by index: one of those, were there no `copy`
+  std::vector<std::uint32_t> indices;        ///< scratch memory: numbers of triangles
 };
 
 /// The triangles of a mesh with a search tree over their texture coordinates. Immutable, safe to share.
@@ -50,15 +50,17 @@ class Charts {
   [[nodiscard]] const ExactUnits& units() const { return units_; }
   [[nodiscard]] const std::vector<ChartTriangle>& triangles() const { return triangles_; }
 
-  /// Sorts the triangles that may overlap `a` in the texture. Expected O(log n + k) for k of them. Where `a` has no
-  /// area in the texture, all may: in a palette many have one coordinate. Then only the near ones are looked for.
+  /// Finds the near ones of the triangles that may overlap `a` in the texture: where charts overlap, or many triangles
+  /// share a part of the texture, all may. Expected O(log n + k log k) for k whose boxes in the texture meet that of
+  /// `a` and whose boxes in space are within reach of it.
   void find_candidates(const ChartTriangle& a, double reach, ChartCandidates& found) const;
   /// Whether the box in the texture of a triangle without an area there seems to meet that of `a`: true if it does.
   /// O(log n).
   [[nodiscard]] bool seems_to_meet_without_area(const ChartTriangle& a) const;
   /// Whether triangles may have the only texture coordinate of `a` and others besides. O(n).
   [[nodiscard]] bool may_have_among_others(const ChartTriangle& a) const;
-  /// Where `a` has no area in the texture: sets `others` to those that are not near, by the last `find_candidates`.
+  /// Sets `others` to those that are not near, by the last `find_candidates`. Expected O(log n + k) for k whose boxes
+  /// in the texture meet that of `a`.
   void find_others(const ChartTriangle& a, ChartCandidates& found) const;
 
  private:
@@ -70,7 +72,7 @@ class Charts {
   ExactUnits units_;
   std::vector<ChartTriangle> triangles_;
   std::vector<Eigen::AlignedBox3d> places_;  ///< in space, by triangle
-  std::optional<BoxTree> with_area_;         ///< boxes in the texture, by triangle; empty where it has no area there
+  std::optional<PlacedBoxes> with_area_;     ///< by triangle; empty boxes where it has no area in the texture
   std::vector<std::uint32_t> without_area_;  ///< triangles
   /// Boxes of these, in the texture and in space.
   std::optional<BoxTree> without_area_in_texture_, without_area_in_space_;

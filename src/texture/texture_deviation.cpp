@@ -100,7 +100,7 @@ class Direction {
 
   [[nodiscard]] FindOthers others_of(std::size_t triangle, Workspace& work) const {
     return [this, &a = a_.triangles()[triangle], &found = work.candidates] {
-      if (a.chart != Chart::Area) b_.find_others(a, found);
+      b_.find_others(a, found);
       return std::span<const ChartTriangle* const>(found.others);
     };
   }

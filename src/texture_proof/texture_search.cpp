@@ -192,6 +192,7 @@ void TextureSearch::add(const std::vector<const ChartTriangle*>& triangles) {
 void TextureSearch::add_others() {
   if (std::exchange(has_others_, true)) return;
   const std::uint32_t first = overlay_.candidates();
+  if (overlay_.triangle().chart == Chart::Area) target_.find_others(overlay_.triangle(), found_);
   add(found_.others);
   others_.resize(overlay_.candidates() - first);
   std::iota(others_.begin(), others_.end(), first);

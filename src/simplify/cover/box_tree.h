@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace meshbound {
@@ -10,23 +13,33 @@ namespace meshbound {
 /// are compared in single precision, relative to one in the middle of their order, so that a few far away do not make
 /// this coarse. Subtraction and rounding keep the order of numbers: none is lost, and one that misses the box by less
 /// than that rounding may be found as well. Immutable, safe to share.
-class BoxTree {
+///
+/// There are trees of three axes, and of six for boxes in a texture and in space at once (`PlacedBoxes`).
+template <int axes>
+class BoxTreeOf {
  public:
+  using AlignedBox = Eigen::AlignedBox<double, axes>;
+  class Search;
+
   /// O(n log n). Coordinates are finite; nothing meets an empty box.
-  explicit BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes);
+  explicit BoxTreeOf(const std::vector<AlignedBox>& boxes);
 
   /// Appends the indices of the boxes that meet `box`, in an order that depends on the boxes alone.
-  void find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const;
+  void find(const AlignedBox& box, std::vector<std::uint32_t>& found) const;
 
   /// Whether `find` would find any.
-  [[nodiscard]] bool meets(const Eigen::AlignedBox3d& box) const;
+  [[nodiscard]] bool meets(const AlignedBox& box) const;
+
+  /// The indices of all boxes: `find` keeps this order.
+  [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
 
  private:
   static constexpr std::size_t width = 8;
   static constexpr std::size_t max_levels = 11;  ///< 8^11 is more than there are indices
 
+  using Corner = Eigen::Matrix<float, axes, 1>;
   struct Box {
-    Eigen::Vector3f lo, hi;
+    Corner lo, hi;
   };
   struct Wanted;  ///< the box that is looked for
   /// Boxes by axis; those of unused lanes are not numbers, which meet nothing.
@@ -35,19 +48,40 @@ class BoxTree {
     void set(std::size_t lane, const Box& box);
     /// A bit for each lane whose box meets this one.
     [[nodiscard]] unsigned meeting(const Wanted& box) const;
-    float lo[3][width], hi[3][width];
+    float lo[axes][width], hi[axes][width];
   };
 
-  [[nodiscard]] Box rounded(const Eigen::AlignedBox3d& box) const;
-  /// Calls `visit(node, lanes)` for the nodes of the lowest level with boxes that meet `box`, a bit of `lanes` for
-  /// each, until it returns false.
-  template <class Visit>
-  void visit_meeting(const Eigen::AlignedBox3d& box, const Visit& visit) const;
+  [[nodiscard]] Box rounded(const AlignedBox& box) const;
 
-  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix<double, axes, 1> origin_ = Eigen::Matrix<double, axes, 1>::Zero();
   std::vector<std::uint32_t> order_;  ///< indices of the boxes
   /// By level: node i has the boxes 8 i to 8 i + 7 in order, or the boxes around these nodes of the level before.
   std::vector<std::vector<Node>> levels_;
 };
+
+using BoxTree = BoxTreeOf<3>;
+
+/// A search that can be ended early: finds the same boxes as `find` in the same order.
+template <int axes>
+class BoxTreeOf<axes>::Search {
+ public:
+  /// `tree` must outlive this.
+  Search(const BoxTreeOf& tree, const AlignedBox& box);
+
+  /// The index of the next box; absent if there is none.
+  [[nodiscard]] std::optional<std::uint32_t> next();
+
+ private:
+  friend class BoxTreeOf;
+  [[nodiscard]] bool next_node(const Wanted& wanted);
+
+  const BoxTreeOf& tree_;
+  Box box_;
+  std::array<unsigned, max_levels> open_{};         ///< by level: lanes of a node that are left
+  std::array<std::size_t, max_levels> first_lane_;  ///< and the number of its first lane
+};
+
+extern template class BoxTreeOf<3>;
+extern template class BoxTreeOf<6>;
 
 }  // namespace meshbound

@@ -33,6 +33,23 @@ bool is_line(const CornerCoordinates& corners) {
   return has_coordinates(corners) && (corners[0] != corners[1] || corners[0] != corners[2]);
 }
 
+Eigen::AlignedBox3d box_at(const Eigen::Vector2d& coordinate, std::uint32_t material) {
+  const Eigen::Vector3d at(coordinate.x(), coordinate.y(), material);
+  return {at, at};
+}
+
+/// A box around all coordinates that count as this one on a line.
+Eigen::AlignedBox3d box_around(const Eigen::Vector2d& coordinate, std::uint32_t material) {
+  const Eigen::Vector3d at(coordinate.x(), coordinate.y(), material),
+      around = Eigen::Vector3d(1, 1, 0) * (rounding_of_coordinates * coordinate.norm());
+  return {at - around, at + around};
+}
+
+Eigen::AlignedBox3d box_around(Vec3 p, double reach) {
+  const Eigen::Vector3d at = to_eigen(p), around = Eigen::Vector3d::Constant(reach);
+  return {at - around, at + around};
+}
+
 }  // namespace
 
 Eigen::AlignedBox3d box_in_texture(const CornerCoordinates& corners, std::uint32_t material) {
@@ -62,19 +79,16 @@ Atlas::Atlas(const std::vector<Vec3>& vertices, const std::vector<Triangle>& tri
       triangles_(triangles),
       coordinates_(std::move(coordinates)),
       materials_(std::move(materials)) {
-  std::vector<Eigen::AlignedBox3d> boxes(coordinates_.size()), on_lines, in_space;
+  std::vector<Eigen::AlignedBox3d> boxes(coordinates_.size()), on_lines, in_space(coordinates_.size());
   for (std::uint32_t t = 0; t < coordinates_.size(); ++t) {
     boxes[t] = box_in_texture(coordinates_[t], material(t));
+    in_space[t] = box_of(corners(t));
     if (!boxes[t].isEmpty() || !is_line(coordinates_[t])) continue;
     on_lines.resize(boxes.size());
-    in_space.resize(boxes.size());
     on_lines[t] = box_of(coordinates_[t], material(t));
-    in_space[t] = box_of(corners(t));
   }
-  tree_.emplace(boxes);
-  if (on_lines.empty()) return;
-  on_lines_.emplace(on_lines);
-  on_lines_in_space_.emplace(in_space);
+  with_area_.emplace(boxes, in_space);
+  if (!on_lines.empty()) on_lines_.emplace(on_lines, in_space);
 }
 
 TriangleCorners Atlas::corners(std::uint32_t triangle) const {
@@ -87,78 +101,60 @@ std::optional<Vec3> Atlas::point(std::uint32_t triangle, const Eigen::Vector2d& 
   return weights ? std::optional(point_of(corners(triangle), *weights)) : std::nullopt;
 }
 
-template <class Visit>
-void Atlas::for_each_point(const Eigen::Vector2d& coordinate, std::uint32_t material, std::vector<std::uint32_t>& found,
-                           const Visit& visit) const {
-  found.clear();
-  const Eigen::Vector3d at(coordinate.x(), coordinate.y(), material);
-  tree_->find({at, at}, found);
-  for (const std::uint32_t t : found) {
-    const auto weights = weights_inside(coordinates_[t], coordinate);
-    if (weights && !visit(point_of(corners(t), *weights))) return;
-  }
+/// The point of the triangle with this coordinate; absent if it has none.
+std::optional<Vec3> Atlas::point_inside(std::uint32_t triangle, const Eigen::Vector2d& coordinate) const {
+  const auto weights = weights_inside(coordinates_[triangle], coordinate);
+  return weights ? std::optional(point_of(corners(triangle), *weights)) : std::nullopt;
 }
 
-double Atlas::squared_distance_of_far_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
-                                            double limit, std::vector<std::uint32_t>& found) const {
-  double far = 0;
-  for_each_point(coordinate, material, found, [&](Vec3 q) {
-    const double squared = squared_length(q - p);
-    if (squared > limit * limit) far = squared;
-    return far == 0;
-  });
-  if (far > 0 || !on_lines_) return far;
-  find_on_lines(coordinate, material, found);
-  for (const std::uint32_t t : found) {
-    const auto q = nearest_with_coordinate(corners(t), coordinates_[t], coordinate, p);
-    if (q && squared_length(*q - p) > limit * limit) return squared_length(*q - p);
+/// The squared distance from `p` of the first point of the original with this coordinate and material whose squared
+/// distance is accepted; 0 if there is none.
+template <class Accept>
+double Atlas::squared_distance_of_some_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
+                                             const Accept& accept) const {
+  BoxTree::Search in_areas(with_area_->in_texture(), box_at(coordinate, material));
+  while (const std::optional<std::uint32_t> t = in_areas.next())
+    if (const auto q = point_inside(*t, coordinate); q && accept(squared_length(*q - p))) return squared_length(*q - p);
+  if (!on_lines_) return 0;
+  BoxTree::Search in_lines(on_lines_->in_texture(), box_around(coordinate, material));
+  while (const std::optional<std::uint32_t> t = in_lines.next()) {
+    const auto q = nearest_with_coordinate(corners(*t), coordinates_[*t], coordinate, p);
+    if (q && accept(squared_length(*q - p))) return squared_length(*q - p);
   }
   return 0;
 }
 
-/// Sets `found` to the triangles whose texture coordinates lie on a line that seems to pass through this one.
-void Atlas::find_on_lines(const Eigen::Vector2d& coordinate, std::uint32_t material,
-                          std::vector<std::uint32_t>& found) const {
-  const Eigen::Vector3d at(coordinate.x(), coordinate.y(), material),
-      around = Eigen::Vector3d(1, 1, 0) * (rounding_of_coordinates * coordinate.norm());
-  found.clear();
-  on_lines_->find({at - around, at + around}, found);
+double Atlas::squared_distance_of_far_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
+                                            double limit) const {
+  return squared_distance_of_some_point(coordinate, material, p,
+                                        [limit](double squared) { return squared > limit * limit; });
 }
 
 double Atlas::squared_distance(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p, double limit,
                                std::vector<std::uint32_t>& found) const {
   double nearest = HUGE_VAL;
-  for_each_point(coordinate, material, found, [&](Vec3 q) {
-    nearest = std::min(nearest, squared_length(q - p));
-    return true;
-  });
+  found.clear();
+  with_area_->find(box_at(coordinate, material), box_around(p, limit), found);
+  for (const std::uint32_t t : found)
+    if (const auto q = point_inside(t, coordinate)) nearest = std::min(nearest, squared_length(*q - p));
   if (on_lines_ && !(nearest <= limit * limit))
     nearest = std::min(nearest, squared_distance_to_lines(coordinate, material, p, limit, found));
-  return nearest < HUGE_VAL ? nearest : 0;
+  if (nearest < HUGE_VAL) return nearest;
+  return squared_distance_of_some_point(coordinate, material, p, [](double) { return true; });
 }
 
-/// As `squared_distance` among the triangles with a line of coordinates; infinite if none has the coordinate. In a
-/// palette of gradients all of them may have it, so those near `p` in space come first.
+/// As `squared_distance` among the triangles with a line of coordinates; infinite if none within the limit has the
+/// coordinate. In a palette of gradients all of them may have it, so those near `p` in space come first.
 double Atlas::squared_distance_to_lines(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p, double limit,
                                         std::vector<std::uint32_t>& found) const {
   double nearest = HUGE_VAL;
-  const auto visit = [&](std::uint32_t t) {
-    if (this->material(t) != material) return;
-    if (const auto q = nearest_with_coordinate(corners(t), coordinates_[t], coordinate, p))
-      nearest = std::min(nearest, squared_length(*q - p));
-  };
-  const Eigen::Vector3d at(p.x, p.y, p.z);
   for (const double share : shares_of_reach) {
-    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(share * limit);
     found.clear();
-    on_lines_in_space_->find({at - reach, at + reach}, found);
-    for (const std::uint32_t t : found) visit(t);
-    if (nearest <= reach.x() * reach.x()) return nearest;
-  }
-  find_on_lines(coordinate, material, found);
-  for (const std::uint32_t t : found) {
-    visit(t);
-    if (nearest < HUGE_VAL) break;
+    on_lines_->find(box_around(coordinate, material), box_around(p, share * limit), found);
+    for (const std::uint32_t t : found)
+      if (const auto q = nearest_with_coordinate(corners(t), coordinates_[t], coordinate, p))
+        nearest = std::min(nearest, squared_length(*q - p));
+    if (nearest <= share * limit * (share * limit)) break;
   }
   return nearest;
 }

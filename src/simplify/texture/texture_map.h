@@ -11,6 +11,7 @@
 #include "geometry/triangle_corners.h"
 #include "meshbound/triangle_mesh.h"
 #include "simplify/cover/box_tree.h"
+#include "simplify/cover/placed_boxes.h"
 #include "simplify/mesh/array_mesh.h"
 #include "simplify/mesh/feature_lines.h"
 #include "simplify/mesh/sample_lists.h"
@@ -41,32 +42,31 @@ class Atlas {
     return materials_.empty() ? 0 : materials_[triangle];
   }
   /// The squared distance from `p` of a point of the original with this coordinate and material that is farther away
-  /// than `limit`; 0 if there is none. `found` is scratch memory. Expected O(log n) for few such points.
+  /// than `limit`; 0 if there is none. Expected O(log n) for few such points within the limit.
   [[nodiscard]] double squared_distance_of_far_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
-                                                     double limit, std::vector<std::uint32_t>& found) const;
+                                                     double limit) const;
   /// The squared distance from `p` to the nearest point of the original with this coordinate and material; 0 if there
   /// is none. Where all of them are farther away than `limit`, it need not be the nearest one. Triangles with a single
-  /// coordinate do not count: they are compared as surfaces.
+  /// coordinate do not count: they are compared as surfaces. `found` is scratch memory. Expected O(log n) for few such
+  /// points within the limit, however many there are beyond.
   [[nodiscard]] double squared_distance(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p, double limit,
                                         std::vector<std::uint32_t>& found) const;
 
  private:
   [[nodiscard]] double squared_distance_to_lines(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
                                                  double limit, std::vector<std::uint32_t>& found) const;
-  void find_on_lines(const Eigen::Vector2d& coordinate, std::uint32_t material,
-                     std::vector<std::uint32_t>& found) const;
   [[nodiscard]] TriangleCorners corners(std::uint32_t triangle) const;
-  template <class Visit>
-  void for_each_point(const Eigen::Vector2d& coordinate, std::uint32_t material, std::vector<std::uint32_t>& found,
-                      const Visit& visit) const;
+  [[nodiscard]] std::optional<Vec3> point_inside(std::uint32_t triangle, const Eigen::Vector2d& coordinate) const;
+  template <class Accept>
+  [[nodiscard]] double squared_distance_of_some_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
+                                                      const Accept& accept) const;
 
   const std::vector<Vec3>& vertices_;
   const std::vector<Triangle>& triangles_;
   std::vector<CornerCoordinates> coordinates_;
   std::vector<std::uint32_t> materials_;
-  std::optional<BoxTree> tree_;  ///< boxes in the texture, of the triangles that have an area there
-  /// Boxes in the texture and in space, of the triangles whose texture coordinates lie on a line; absent without any.
-  std::optional<BoxTree> on_lines_, on_lines_in_space_;
+  std::optional<PlacedBoxes> with_area_;  ///< the triangles that have an area in the texture
+  std::optional<PlacedBoxes> on_lines_;   ///< those whose texture coordinates lie on a line; absent without any
 };
 
 /// The texture of a mesh under decimation: coordinates at its corners, and samples of the original, each assigned to
