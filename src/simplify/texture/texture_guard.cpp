@@ -215,8 +215,7 @@ bool TextureGuard::match_inside(const TextureMap::Sample& sample, std::uint32_t 
   match.face = number;
   match.is_inside = true;
   if (!face.has_area) {
-    const std::optional<Vec3> nearest =
-        nearest_with_coordinate(face.at, face.coordinates, sample.coordinate, sample.at);
+    const std::optional<Vec3> nearest = face.line.nearest(face.at, sample.coordinate, sample.at);
     match.weights = {1, 0, 0};
     if (nearest) match.offset = *nearest - sample.at;
     return nearest.has_value();
@@ -274,7 +273,10 @@ void TextureGuard::prepare_faces() {
     sides << face.coordinates[1] - face.coordinates[0], face.coordinates[2] - face.coordinates[0];
     face.has_area = sides.determinant() != 0;
     face.has_one_coordinate = face.coordinates[0] == face.coordinates[1] && face.coordinates[0] == face.coordinates[2];
-    if (!face.has_area) continue;
+    if (!face.has_area) {
+      face.line = LineCoordinates(face.coordinates);
+      continue;
+    }
     face.to_weights = sides.inverse();
     const double by_limit = 1 / map_.limit;
     const Vec3 u = by_limit * (face.at[1] - face.at[0]), v = by_limit * (face.at[2] - face.at[0]);

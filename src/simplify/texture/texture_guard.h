@@ -9,6 +9,7 @@
 
 #include "geometry/triangle_corners.h"
 #include "numeric/no_index.h"
+#include "simplify/texture/nearest_with_coordinate.h"
 #include "simplify/texture/texture_map.h"
 
 namespace meshbound {
@@ -63,6 +64,7 @@ class TextureGuard {
     std::array<Vec3, 2> derivative;
     std::array<double, 3> squared_derivative;
     bool has_area = false, has_one_coordinate = false;
+    LineCoordinates line;  ///< set where the face has no area in the texture
   };
   /// The point of a face that a sample is compared with.
   struct Match {
