@@ -130,6 +130,14 @@ Charts::Charts(const TexturedMesh& mesh) : mesh_(mesh), units_(units_of(mesh)) {
     in_space.push_back(places_.back());
   }
   with_area_.emplace(with_area, places_);
+  if (with_area_->is_crowded()) hubs_ = Hubs(triangles_);
+  if (!hubs_.empty()) {
+    rank_.resize(triangles_.size());
+    for (std::uint32_t k = 0; k < rank_.size(); ++k) rank_[with_area_->in_texture().order()[k]] = k;
+    for (const ChartTriangle& t : triangles_)
+      if (hubs_.has(t.number)) with_area[t.number].setEmpty();
+    with_area_.emplace(with_area, places_);
+  }
   without_area_in_texture_.emplace(in_texture);
   without_area_in_space_.emplace(in_space);
 }
@@ -142,11 +150,27 @@ void Charts::find_without_area(const Eigen::AlignedBox3d& box, const BoxTree& tr
   for (std::size_t i = before; i < found.size(); ++i) found[i] = without_area_[found[i]];
 }
 
-/// Appends the triangles whose boxes in the texture meet that of `a`.
+/// Sets `found` to the triangles with an area in the texture that may have coordinates of `a`; of those that share only
+/// the coordinate of a hub with it, one for each place in space of the hub.
+void Charts::find_with_area(const ChartTriangle& a, std::vector<std::uint32_t>& found) const {
+  found.clear();
+  with_area_->in_texture().find(box_in_texture(*a.source), found);
+  hubs_.find(a, found);
+  hubs_.find_touching(a, found);
+  put_in_order(found);
+}
+
+/// Puts what was found by boxes and around hubs in the order of boxes in the texture, and drops what is there twice.
+void Charts::put_in_order(std::vector<std::uint32_t>& found) const {
+  if (hubs_.empty()) return;
+  std::sort(found.begin(), found.end(), [this](std::uint32_t i, std::uint32_t j) { return rank_[i] < rank_[j]; });
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+}
+
+/// As `find_with_area`, with those that have no area in the texture.
 void Charts::find_in_texture(const ChartTriangle& a, std::vector<std::uint32_t>& found) const {
-  const Eigen::AlignedBox3d box = box_in_texture(*a.source);
-  with_area_->in_texture().find(box, found);
-  find_without_area(box, *without_area_in_texture_, found);
+  find_with_area(a, found);
+  find_without_area(box_in_texture(*a.source), *without_area_in_texture_, found);
 }
 
 bool Charts::seems_to_meet_without_area(const ChartTriangle& a) const {
@@ -161,7 +185,7 @@ bool Charts::may_have_among_others(const ChartTriangle& a) const {
 
 void Charts::find_near_without_area(const ChartTriangle& a, double reach, ChartCandidates& found) const {
   const Eigen::AlignedBox3d in_texture = box_in_texture(*a.source);
-  with_area_->in_texture().find(in_texture, found.indices);
+  find_with_area(a, found.indices);
   find_without_area(place_within_reach(a, reach), *without_area_in_space_, found.indices);
   for (const std::uint32_t i : found.indices)
     if (in_texture.intersects(box_in_texture(mesh_.triangles[i]))) found.near.push_back(&triangles_[i]);
@@ -170,7 +194,7 @@ void Charts::find_near_without_area(const ChartTriangle& a, double reach, ChartC
 void Charts::find_others(const ChartTriangle& a, ChartCandidates& found) const {
   found.others.clear();
   found.indices.clear();
-  if (a.chart == Chart::Area) with_area_->in_texture().find(box_in_texture(*a.source), found.indices);
+  if (a.chart == Chart::Area) find_with_area(a, found.indices);
   find_without_area(box_in_texture(*a.source), *without_area_in_texture_, found.indices);
   std::vector<const ChartTriangle*> near = found.near;
   std::sort(near.begin(), near.end());
@@ -185,6 +209,8 @@ void Charts::find_candidates(const ChartTriangle& a, double reach, ChartCandidat
   found.indices.clear();
   if (a.chart != Chart::Area) return find_near_without_area(a, reach, found);
   with_area_->find(box_in_texture(*a.source), place_within_reach(a, reach), found.indices);
+  hubs_.find(a, found.indices);
+  put_in_order(found.indices);
   const Eigen::AlignedBox3d place = place_of(*a.source);
   const Plane plane(*a.source);
   const Eigen::Vector2d& origin = a.source->coordinates[0];

@@ -7,6 +7,7 @@
 
 #include "simplify/cover/box_tree.h"
 #include "simplify/cover/placed_boxes.h"
+#include "texture/hubs.h"
 #include "texture/overlay.h"
 
 namespace meshbound {
@@ -64,6 +65,8 @@ class Charts {
   void find_others(const ChartTriangle& a, ChartCandidates& found) const;
 
  private:
+  void find_with_area(const ChartTriangle& a, std::vector<std::uint32_t>& found) const;
+  void put_in_order(std::vector<std::uint32_t>& found) const;
   void find_in_texture(const ChartTriangle& a, std::vector<std::uint32_t>& found) const;
   void find_without_area(const Eigen::AlignedBox3d& box, const BoxTree& tree, std::vector<std::uint32_t>& found) const;
   void find_near_without_area(const ChartTriangle& a, double reach, ChartCandidates& found) const;
@@ -72,7 +75,10 @@ class Charts {
   ExactUnits units_;
   std::vector<ChartTriangle> triangles_;
   std::vector<Eigen::AlignedBox3d> places_;  ///< in space, by triangle
-  std::optional<PlacedBoxes> with_area_;     ///< by triangle; empty boxes where it has no area in the texture
+  Hubs hubs_;
+  std::vector<std::uint32_t> rank_;  ///< by triangle, in the order of boxes in the texture; empty without hubs
+  /// By triangle: boxes of those with an area in the texture that are not around a hub, empty ones for all others.
+  std::optional<PlacedBoxes> with_area_;
   std::vector<std::uint32_t> without_area_;  ///< triangles
   /// Boxes of these, in the texture and in space.
   std::optional<BoxTree> without_area_in_texture_, without_area_in_space_;

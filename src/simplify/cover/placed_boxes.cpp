@@ -42,7 +42,7 @@ std::vector<PlacedBoxes::BoxOfBoth> placed(const Boxes& in_texture, const Boxes&
 /// is not worth its time (4% of a run of `simplify_with_bound` with a texture).
 constexpr std::size_t samples = 256, many_met = 48;
 
-bool is_crowded(const BoxTree& tree, const Boxes& boxes) {
+bool are_crowded(const BoxTree& tree, const Boxes& boxes) {
   const std::size_t step = boxes.size() / samples + 1;
   std::vector<std::uint32_t> met;
   std::size_t looked_at = 0;
@@ -57,7 +57,7 @@ bool is_crowded(const BoxTree& tree, const Boxes& boxes) {
 }  // namespace
 
 PlacedBoxes::PlacedBoxes(const Boxes& in_texture, const Boxes& in_space) : in_texture_(in_texture) {
-  if (!is_crowded(in_texture_, in_texture)) return;
+  if (!are_crowded(in_texture_, in_texture)) return;
   exponent_ = exponent_of_size(in_space, in_texture) - exponent_of_size(in_texture, in_texture);
   in_both_.emplace(placed(in_texture, in_space, exponent_));
   rank_.resize(in_texture.size());

@@ -22,6 +22,8 @@ class PlacedBoxes {
             std::vector<std::uint32_t>& found) const;
 
   [[nodiscard]] const BoxTree& in_texture() const { return in_texture_; }
+  /// Whether many boxes share a part of the texture.
+  [[nodiscard]] bool is_crowded() const { return in_both_.has_value(); }
 
   using BoxOfBoth = BoxTreeOf<6>::AlignedBox;
 

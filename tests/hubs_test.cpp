@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// Textures around points that thousands of triangles have as a corner.
+#include "texture/hubs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "texture/charts.h"
+#include "textured_shapes.h"
+
+namespace meshbound {
+namespace hubs_test {
+
+using test::Corner;
+using test::expect_value;
+using test::measured;
+
+constexpr double whole_turn = 2 * std::numbers::pi;
+
+/// Sectors of a disc around (0.5, 0.5) in the texture, at a height in space, from one angle to another.
+TexturedMesh disc(int sectors, double height, double from = 0, double to = whole_turn) {
+  const auto rim = [=](int i) {
+    const double angle = i == sectors && to - from == whole_turn ? from : from + (to - from) * i / sectors;
+    const Eigen::Vector2d p(0.5 + 0.5 * std::cos(angle), 0.5 + 0.5 * std::sin(angle));
+    return Corner{{p.x(), p.y(), height}, p};
+  };
+  TexturedMesh mesh;
+  for (int i = 0; i < sectors; ++i)
+    mesh.triangles.push_back(test::triangle({{0.5, 0.5, height}, {0.5, 0.5}}, rim(i), rim(i + 1)));
+  return test::numbered(mesh);
+}
+
+TEST(Hubs, AreFoundWhereManyTrianglesHaveACorner) {
+  const TexturedMesh many = disc(500, 0), few = disc(20, 0);
+  const Charts of_many(many), of_few(few);
+  EXPECT_TRUE(Hubs(of_few.triangles()).empty());
+  TexturedMesh cards = few;
+  for (int i = 0; i < 20; ++i) cards = test::joined(cards, few);
+  EXPECT_TRUE(Hubs(Charts(cards).triangles()).empty());
+  const Hubs hubs(of_many.triangles());
+  ASSERT_FALSE(hubs.empty());
+  for (const ChartTriangle& t : of_many.triangles()) {
+    std::vector<std::uint32_t> found, touching;
+    EXPECT_TRUE(hubs.has(t.number));
+    hubs.find(t, found);
+    EXPECT_EQ(std::count(found.begin(), found.end(), t.number), 1);
+    EXPECT_LE(found.size(), 3U);
+    hubs.find_touching(t, touching);
+    EXPECT_EQ(touching.size(), 1U);
+  }
+}
+
+/// Triangles with the hub as a corner and others off it, in all directions, also in that where angles start again.
+TEST(Hubs, FindWhatLiesInTheDirectionsOfATriangle) {
+  constexpr int sectors = 500, directions = 90;
+  constexpr double turn = 0.25;
+  const TexturedMesh many = disc(sectors, 0);
+  const Charts of_many(many);
+  const Hubs hubs(of_many.triangles());
+  for (const double from : {0.0, 0.25})  // distance of the first corner from the hub
+    for (int i = 0; i < directions; ++i) {
+      const auto at = [&](double distance, double by) {
+        const double angle = whole_turn * i / directions + by;
+        return Corner{{0, 0, by}, {0.5 + distance * std::cos(angle), 0.5 + distance * std::sin(angle)}};
+      };
+      const TexturedMesh one =
+          test::numbered({{test::triangle(at(from, 0), at(0.75, -turn / 2), at(0.75, turn / 2))}, {}});
+      std::vector<std::uint32_t> found;
+      hubs.find(Charts(one).triangles()[0], found);
+      std::sort(found.begin(), found.end());
+      EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());
+      EXPECT_GE(found.size(), sectors * (turn / whole_turn) - 1) << i;
+      EXPECT_LE(found.size(), sectors * (turn / whole_turn) + 4) << i;
+    }
+}
+
+TEST(Hubs, FindAllTrianglesAroundAHubInside) {
+  const TexturedMesh many = disc(500, 0);
+  const TexturedMesh large =
+      test::numbered({{test::triangle({{0, 0, 0}, {0.2, 0.2}}, {{1, 0, 0}, {0.9, 0.3}}, {{0, 1, 0}, {0.4, 0.9}})}, {}});
+  const Charts of_many(many), of_large(large);
+  std::vector<std::uint32_t> found;
+  Hubs(of_many.triangles()).find(of_large.triangles()[0], found);
+  EXPECT_EQ(found.size(), 500U);
+}
+
+// The discs cover each other but for slivers along the rim, where they look for all that may cover these.
+TEST(TextureDeviation, LooksAtFewTrianglesAroundAHub) {
+  for (const int n : {400, 800}) {
+    const TextureDeviation found = measured(disc(n, 0), disc(n - 101, 0.25));
+    for (const OneSidedTextureDeviation& direction : {found.a_to_b, found.b_to_a}) {
+      expect_value(direction.bounds, 0.25);
+      EXPECT_LT(direction.pairs, 40U * static_cast<unsigned>(n));
+    }
+    EXPECT_GT(found.a_to_b.uncovered.upper, 0);
+  }
+}
+
+/// Two discs have one texture: the nearer one counts, also at the hub.
+TEST(TextureDeviation, TakesTheNearestPlaceOfAHub) {
+  const TexturedMesh stack = test::joined(disc(300, 1), disc(300, 0.5));
+  const TextureDeviation found = measured(disc(200, 0), stack);
+  expect_value(found.a_to_b.bounds, 0.5);
+  expect_value(found.b_to_a.bounds, 1);
+}
+
+/// A triangle in a gap between the sectors has the coordinate of the hub alone with them.
+TEST(TextureDeviation, MeasuresWhereOnlyTheHubIsShared) {
+  const TexturedMesh gap = test::joined(disc(300, 1, 0.5, whole_turn - 0.5), disc(300, 0.75, 0.5, whole_turn - 0.5));
+  const TextureDeviation found = measured(disc(1, 0.25, -0.25, 0.25), gap);
+  expect_value(found.a_to_b.bounds, 0.5);
+  expect_value(found.b_to_a.bounds, 0.75);
+  EXPECT_NEAR(found.a_to_b.uncovered.upper, 1, 1e-9);
+}
+
+}  // namespace hubs_test
+}  // namespace meshbound
