@@ -127,6 +127,30 @@ TEST(Split, CutsWhereItMeetsFewEdges) {
   EXPECT_LT(100 * between, state->mesh.face_count());
 }
 
+/// A ruled hyperboloid: two rings, and triangles that lead from one to the other across the middle.
+TriangleMesh hyperboloid(std::uint32_t segments) {
+  TriangleMesh mesh;
+  for (const double z : {-1.0, 1.0}) {
+    for (std::uint32_t i = 0; i < segments; ++i) {
+      const double angle = i * 2 * std::numbers::pi / segments + 1.1 * z;
+      mesh.vertices.emplace_back(std::cos(angle), std::sin(angle), z);
+    }
+  }
+  for (std::uint32_t i = 0; i < segments; ++i) {
+    const std::uint32_t next = (i + 1) % segments;
+    mesh.triangles.push_back({i, next, next + segments});
+    mesh.triangles.push_back({i, next + segments, i + segments});
+  }
+  return mesh;
+}
+
+/// Each cut would meet all faces, and each collapse would be proven alone.
+TEST(Split, LeavesMeshesWholeWhoseFacesSpanThem) {
+  const test::StateOf state(hyperboloid(5000));
+  EXPECT_EQ(split(*state, 0, min_vertices / 4).regions.size(), 1u);
+  EXPECT_EQ(split(*state, 1, min_vertices / 4).regions.size(), 1u);
+}
+
 /// A thread asks for faces of other regions, whose corners may change meanwhile.
 TEST(Split, KnowsTheRegionOfAFaceWithoutItsCorners) {
   const test::StateOf state(datasets::icosphere(1, 6));

@@ -143,6 +143,18 @@ class Cutter {
 /// Faces that one thread takes at a time.
 constexpr std::size_t faces_at_once = 16384;
 
+/// A mesh stays whole where cuts leave fewer of its faces in regions: what lies between regions is proven change by
+/// change. Where faces reach from one end of a mesh to the other, a cut may meet all of them. With 50 a ruled
+/// hyperboloid of 40,000 triangles takes 1.05 s at 1% instead of 14.1 s; with 25 a star of needles as long as with 0.
+constexpr std::size_t min_percent_in_regions = 50;
+
+bool is_mostly_in_regions(const DecimationState& state, const Split& split) {
+  const auto outside =
+      static_cast<std::size_t>(std::count(split.region_of_face.begin(), split.region_of_face.end(), no_index));
+  const std::size_t inside = split.region_of_face.size() - outside;
+  return 100 * inside >= min_percent_in_regions * state.faces;
+}
+
 /// Gives faces to the region of all their vertices. Returns how many have their first vertex in each region.
 std::vector<std::uint32_t> assign_faces(const DecimationState& state, Split& split, std::uint32_t regions,
                                         int threads) {
@@ -181,6 +193,7 @@ Split split(const DecimationState& state, int shift, std::size_t min_vertices, i
   count = static_cast<std::uint32_t>(vertices.size());
   if (count == 1) return whole(state);
   const std::vector<std::uint32_t> faces = assign_faces(state, result, count, threads);
+  if (!is_mostly_in_regions(state, result)) return whole(state);
   // The numbers of changes of a region follow those of the regions before: there are fewer than faces.
   std::uint32_t number = state.last_number();
   for (std::uint32_t r = 0; r < count; number += faces[r++])
