@@ -231,6 +231,18 @@ TEST(Faults, AFullStandardOutputOfTextOrAMeshIsSaid) {
   }
 }
 
+TEST(Faults, AMissingFolderForTemporaryFilesIsSaid) {
+  const test::TemporaryFolder folder;
+  write_mesh(folder / "in.off", datasets::icosphere(1, 2));
+  const std::string absent = folder / "absent";
+  const ToolRun run =
+      run_shell("export TMPDIR=" + shell_quoted(absent) + "; " +
+                command_line(SIMPLIFY_WITH_BOUND, {folder / "in.off", "-", "--format", "off", "--tolerance", "1%"}));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(run.err, "simplify_with_bound: " + absent + ": not a folder for temporary files; set TMPDIR to one\n");
+}
+
 TEST(Faults, AFileThatShrinksWhileItIsReadIsRefused) {
   const test::TemporaryFolder folder;
   const fs::path path = folder / "mesh.off";

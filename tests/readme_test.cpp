@@ -339,6 +339,15 @@ TEST(Benchmarks, RefuseWrongUsageAtOnce) {
   refused("--pair " + file + " " + file + " scaling", "not with scaling");
 }
 
+TEST(Fetch, RefusesNamesThatTheManifestDoesNotHave) {
+  for (const char* const name : {"nosuch", "--unknown", "cgal"}) {
+    const ToolRun run = run_shell(std::string("'" MESHBOUND_SOURCE_DIR "/datasets/fetch' ") + name, 20);
+    EXPECT_EQ(run.exit_code, 2) << name;
+    EXPECT_NE(run.err.find("'" + std::string(name) + "' is not in manifest.tsv"), std::string::npos) << run.err;
+    EXPECT_EQ(meshbound::testing_tools::line_count(run.err), 1) << run.err;
+  }
+}
+
 /// The steps of packaging/ci/github-actions.yml that check levels, as they stand there.
 std::string gate_steps() {
   const std::string file = content_of(root / "packaging/ci/github-actions.yml"), indent(10, ' ');

@@ -9,9 +9,11 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <random>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "mesh/file_stop.h"
@@ -29,6 +31,15 @@ std::filesystem::path temporary_name(const std::filesystem::path& folder) {
   std::random_device random;
   const std::uint64_t digits = std::uint64_t{random()} << 32 | random();
   return folder / (".meshbound-" + std::to_string(::getpid()) + "-" + std::to_string(digits) + ".tmp");
+}
+
+/// Where what goes to a stream stands until it is whole.
+std::filesystem::path folder_before_streams() {
+  const char* const told = std::getenv("TMPDIR");
+  const std::filesystem::path folder = told != nullptr && *told != 0 ? told : "/tmp";
+  std::error_code error;
+  if (std::filesystem::is_directory(folder, error)) return folder;
+  throw IoError(folder.string() + ": not a folder for temporary files; set TMPDIR to one");
 }
 
 /// Gives the new file the owner and permissions of the replaced one. File systems without them let these calls fail,
@@ -61,7 +72,7 @@ void AtomicFile::open() {
   if (fd_ >= 0) return;
   make_buffer();
   if (target_.is_stream && stream_ == Stream::Direct) return open_stream();
-  open_staged(target_.is_stream ? std::filesystem::temp_directory_path() : target_.path.parent_path());
+  open_staged(target_.is_stream ? folder_before_streams() : target_.path.parent_path());
   if (target_.replaced) hand_over(fd_, *target_.replaced);
 }
 
