@@ -211,6 +211,22 @@ TEST_F(CInterface, PassesOptionsOn) {
   EXPECT_EQ(simplified(options)->level(0).triangle_count, torus_.triangles.size());
 }
 
+TEST_F(CInterface, KeepsSidesOnRequestAndCountsTurnedFacesElse) {
+  TriangleMesh grid = meshbound::datasets::terrain(1, 17, 3);
+  for (std::size_t t = 0; t < grid.triangles.size(); t += 10) std::swap(grid.triangles[t][0], grid.triangles[t][1]);
+  const mb_mesh mesh = c_mesh(grid);
+  auto options = simplify_options(0.1);
+  Simplification turned, kept;
+  ASSERT_EQ(mb_simplify(&mesh, &options, &turned.handle), MB_OK) << mb_error_message();
+  EXPECT_GT(mb_simplification_turned_faces(turned.handle, 0), 0u);
+  options.keep_sides = 1;
+  ASSERT_EQ(mb_simplify(&mesh, &options, &kept.handle), MB_OK) << mb_error_message();
+  EXPECT_EQ(mb_simplification_turned_faces(kept.handle, 0), 0u);
+  EXPECT_EQ(mb_simplification_turned_faces(turned.handle, 1), 0u);
+  EXPECT_EQ(mb_simplification_turned_faces(nullptr, 0), 0u);
+  EXPECT_GT(kept.level(0).triangle_count, turned.level(0).triangle_count);
+}
+
 TEST_F(CInterface, FindsFeatureLines) {
   const TriangleMesh grid = meshbound::datasets::terrain(1, 17, 3);
   const mb_mesh mesh = c_mesh(grid);

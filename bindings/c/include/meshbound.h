@@ -254,6 +254,8 @@ typedef struct mb_simplify_options {
   mb_cancel* cancel;    /* may be NULL */
   mb_progress progress; /* may be NULL */
   void* user;           /* for `progress` */
+  int keep_sides; /* 1: every triangle shows the side that its original shows, and edges between triangles of opposite
+                     winding are lines; 0: neighbours turn until they agree (mb_simplification_turned_faces) */
 } mb_simplify_options;
 
 /* Sets the defaults: nothing is locked, no target, no limit, optimal placement of doubles. `size` is
@@ -291,6 +293,8 @@ typedef struct mb_level {
 
 /* Level `index`, 0 for the smallest tolerance. */
 mb_status mb_simplification_level(const mb_simplification* simplification, size_t index, mb_level* level);
+/* Of level `index`: number of triangles that face the other way than their source triangle; 0 where it is no level. */
+size_t mb_simplification_turned_faces(const mb_simplification* simplification, size_t index);
 
 /* ---- certificates ---- */
 

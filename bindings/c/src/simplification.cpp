@@ -46,6 +46,7 @@ void take_choices(const mb_simplify_options& given, SimplifyOptions& options) {
   options.prune = given.prune != 0;
   options.preserve_boundary = given.preserve_boundary != 0;
   options.certificate = given.certificate != 0;
+  options.keep_sides = given.keep_sides != 0;
 }
 
 SimplifyOptions library_options(const mb_simplify_options& given, const TriangleMesh& mesh, RunControl& control) {
@@ -137,4 +138,8 @@ mb_status mb_simplification_level(const mb_simplification* simplification, size_
                          std::to_string(simplification->result.levels.size()));
     *level = level_of(simplification->result.levels[index]);
   });
+}
+
+size_t mb_simplification_turned_faces(const mb_simplification* simplification, size_t index) {
+  return index < mb_simplification_level_count(simplification) ? simplification->result.levels[index].turned_faces : 0;
 }

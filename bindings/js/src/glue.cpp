@@ -144,13 +144,14 @@ void js_set_targets(mb_simplify_options* options, double faces, double ratio) {
 }
 
 void js_set_choices(mb_simplify_options* options, int effort_high, int subset, int single_precision, int stop,
-                    int prune, int preserve_boundary, int certificate) {
+                    int prune, int preserve_boundary, int keep_sides, int certificate) {
   options->effort = effort_high != 0 ? MB_EFFORT_HIGH : MB_EFFORT_NORMAL;
   options->placement = subset != 0 ? MB_SUBSET : MB_OPTIMAL;
   options->single_precision = single_precision;
   options->on_exceed = stop != 0 ? MB_STOP : MB_SKIP;
   options->prune = prune;
   options->preserve_boundary = preserve_boundary;
+  options->keep_sides = keep_sides;
   options->certificate = certificate;
 }
 
@@ -171,7 +172,7 @@ int js_simplify(const mb_mesh* original, const mb_simplify_options* options, mb_
 
 /// `out`: tolerance, verdict, reason of the end, numbers of vertices and triangles, addresses of positions, indices,
 /// source vertices, source triangles and certificate, size of the certificate, lower and upper bound of the lines (NaN
-/// where there are none), then the distance.
+/// where there are none), number of turned faces, then the distance.
 int js_level(const mb_simplification* simplification, std::size_t index, double* out) {
   mb_level level;
   const mb_status status = mb_simplification_level(simplification, index, &level);
@@ -189,7 +190,8 @@ int js_level(const mb_simplification* simplification, std::size_t index, double*
                              address(level.certificate),
                              static_cast<double>(level.certificate_size),
                              level.has_lines != 0 ? level.line_distance.lower : none,
-                             level.has_lines != 0 ? level.line_distance.upper : none};
+                             level.has_lines != 0 ? level.line_distance.upper : none,
+                             static_cast<double>(mb_simplification_turned_faces(simplification, index))};
   for (const double value : values) *out++ = value;
   write_distance(level.distance, out);
   return MB_OK;

@@ -96,6 +96,11 @@ export interface SimplifyOptions {
   prune?: boolean;
   /** Edges with one triangle stay as they are. */
   preserveBoundary?: boolean;
+  /**
+   * Every triangle shows the side that its original shows, and edges between triangles of opposite winding are lines;
+   * otherwise neighbours are turned over until they agree (`Level.turnedFaces`).
+   */
+  keepSides?: boolean;
   /** By vertex: true keeps it where it is. */
   lockedVertices?: ArrayLike<boolean | number>;
   /** Radians between normals from which on an edge is a crease, which stays as it is. */
@@ -121,6 +126,8 @@ export interface Level {
   sourceVertices: Uint32Array;
   /** By triangle: one of the triangles of the original that it stands for. */
   sourceTriangles: Uint32Array;
+  /** How many triangles face the other way than their source triangle. */
+  turnedFaces: number;
   certificate: Uint8Array | null;
   /** Between the feature lines, where there are any. */
   lineDistance: Bounds | null;

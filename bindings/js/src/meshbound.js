@@ -13,7 +13,7 @@ const ENDS = ['nothing_fits', 'target', 'tolerance', 'time_limit', 'rounding'];
 const FORMATS = ['off', 'obj', 'ply', 'stl', 'glb', 'gltf'];
 const DIRECTION_SIZE = 11;
 const DISTANCE_SIZE = 2 + 2 * DIRECTION_SIZE;
-const LEVEL_SIZE = 13 + DISTANCE_SIZE;
+const LEVEL_SIZE = 14 + DISTANCE_SIZE;
 
 let engine;
 
@@ -204,7 +204,7 @@ function levelFrom(scratch, simplification, index) {
   const values = doubles(out, LEVEL_SIZE);
   const [tolerance, verdict, endedBy, vertices, triangles, positions, indices, sourceVertices, sourceTriangles] = values;
   if (!(triangles > 0)) throw new Error('internal error: the engine returned a level without triangles');
-  const [certificate, certificateSize, lineLower, lineUpper] = values.subarray(9);
+  const [certificate, certificateSize, lineLower, lineUpper, turnedFaces] = values.subarray(9);
   return {
     tolerance,
     verdict: VERDICTS[verdict],
@@ -213,15 +213,16 @@ function levelFrom(scratch, simplification, index) {
     indices: words(indices, 3 * triangles),
     sourceVertices: words(sourceVertices, vertices),
     sourceTriangles: words(sourceTriangles, triangles),
+    turnedFaces,
     certificate: certificate === 0 ? null : engine.HEAPU8.slice(certificate, certificate + certificateSize),
     lineDistance: Number.isNaN(lineUpper) ? null : { lower: lineLower, upper: lineUpper },
-    distance: distanceFrom(values.subarray(13)),
+    distance: distanceFrom(values.subarray(14)),
   };
 }
 
 const SIMPLIFY_OPTIONS = [
   'tolerance', 'levels', 'targetFaces', 'targetRatio', 'effort', 'placement', 'precision', 'onExceed', 'prune',
-  'preserveBoundary', 'lockedVertices', 'featureAngle', 'lineTolerance', 'featureEdges', 'certificate', 'timeLimit',
+  'preserveBoundary', 'keepSides', 'lockedVertices', 'featureAngle', 'lineTolerance', 'featureEdges', 'certificate', 'timeLimit',
 ];
 const isCount = (x) => Number.isInteger(x) && x >= 0 && x < 2 ** 32 - 1;
 
@@ -250,7 +251,7 @@ function setOptions(scratch, options, target) {
   engine._js_set_choices(
     target, chosen(options, 'effort', ['normal', 'high']), chosen(options, 'placement', ['optimal', 'subset']),
     chosen(options, 'precision', ['double', 'single']), chosen(options, 'onExceed', ['skip', 'stop']),
-    flag(options, 'prune'), flag(options, 'preserveBoundary'), flag(options, 'certificate'));
+    flag(options, 'prune'), flag(options, 'preserveBoundary'), flag(options, 'keepSides'), flag(options, 'certificate'));
   engine._js_set_arrays(
     target, scratch.copy(levels), levels.length, copyLocks(scratch, arrayLike(options, 'lockedVertices')),
     copyEdges(scratch, featureEdges), featureEdges.length / 2);

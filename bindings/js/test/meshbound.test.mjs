@@ -128,6 +128,11 @@ test('a simplified mesh keeps its tolerance at every level', () => {
   assert.equal(meshbound.simplify(original, { tolerance: 9, targetFaces: 100 }).level.endedBy, 'target');
   const locked = meshbound.simplify(original, { tolerance: 9, lockedVertices: new Uint8Array(1600).fill(1) }).level;
   assert.equal(locked.indices.length, original.indices.length);
+  const turned = original.indices.slice();
+  for (let t = 0; t < turned.length / 3; t += 10) [turned[3 * t], turned[3 * t + 1]] = [turned[3 * t + 1], turned[3 * t]];
+  const someTurned = { positions: original.positions, indices: turned };
+  assert.ok(meshbound.simplify(someTurned, { tolerance: 0.2 }).level.turnedFaces > 0);
+  assert.equal(meshbound.simplify(someTurned, { tolerance: 0.2, keepSides: true }).level.turnedFaces, 0);
 });
 
 test('what is no mesh and no option is refused', () => {

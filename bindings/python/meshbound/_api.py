@@ -93,6 +93,7 @@ def simplify(
     on_exceed: str = "skip",
     prune: bool = False,
     preserve_boundary: bool = False,
+    keep_sides: bool = False,
     locked_vertices: Any = None,
     feature_angle: Optional[float] = None,
     line_tolerance: Optional[Length] = None,
@@ -113,6 +114,8 @@ def simplify(
     on_exceed: "skip" a collapse that would exceed the tolerance, or "stop" there.
     prune: drop components whose every point is within the tolerance of the rest.
     preserve_boundary: edges with one triangle stay as they are.
+    keep_sides: every triangle shows the side that its original shows, and edges between triangles of opposite winding
+        are lines; otherwise neighbours are turned over until they agree (`Level.turned_faces`).
     locked_vertices: by vertex, True keeps it where it is.
     feature_angle: radians between normals from which on an edge is a crease, which stays as it is.
     line_tolerance: borders, creases and feature_edges stay within this length of where they were, both ways.

@@ -83,6 +83,8 @@ class Level:
     """By vertex: the vertex of the original that it comes from."""
     source_triangles: np.ndarray
     """By triangle: one of the triangles of the original that it stands for."""
+    turned_faces: int
+    """How many triangles face the other way than their source triangle."""
     lines: np.ndarray
     """(k, 2) uint32: edges that are feature lines."""
     line_distance: Optional[Distance]

@@ -22,6 +22,7 @@ SimplifyOptions library_options(const py::dict& given) {
   take(given, "target_ratio", "a share, 0 to 1", options.target_ratio);
   take(given, "prune", "True or False", options.prune);
   take(given, "preserve_boundary", "True or False", options.preserve_boundary);
+  take(given, "keep_sides", "True or False", options.keep_sides);
   take(given, "locked_vertices", "True or False for each vertex", options.locked_vertices);
   take(given, "feature_angle", "an angle in radians", options.feature_angle);
   take(given, "line_tolerance", "a length", options.line_tolerance);
@@ -52,6 +53,7 @@ py::dict to_dict(SimplifiedLevel& level) {
   result["triangles"] = to_array(std::move(level.mesh.triangles));
   result["source_vertices"] = to_array(std::move(level.source_vertex));
   result["source_triangles"] = to_array(std::move(level.source_triangle));
+  result["turned_faces"] = level.turned_faces;
   result["certificate"] = py::none();
   if (level.certificate)
     result["certificate"] =
