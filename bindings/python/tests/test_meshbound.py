@@ -134,8 +134,8 @@ class Simplifying(unittest.TestCase):
         self.assertGreater(len(edges.lines), len(lines.lines))
         turned = original[1].copy()
         turned[::10] = turned[::10, ::-1]
-        self.assertGreater(meshbound.simplify((original[0], turned), 0.2).level.turned_faces, 0)
-        self.assertEqual(meshbound.simplify((original[0], turned), 0.2, keep_sides=True).level.turned_faces, 0)
+        self.assertGreater(meshbound.simplify((original[0], turned), 0.01).level.turned_faces, 0)
+        self.assertEqual(meshbound.simplify((original[0], turned), 0.01, keep_sides=True).level.turned_faces, 0)
 
     def test_results_are_dataclasses(self):
         level = meshbound.simplify(sheet(6), 0.1).level
