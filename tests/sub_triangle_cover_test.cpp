@@ -121,5 +121,40 @@ TEST(SubTriangleCover, FindsNoCoverWhereHardlyAnythingIsTooFarAway) {
   }
 }
 
+/// Sheets above one another, at most a tenth of the limit apart in all. The lowest is first.
+TriangleMesh stack(int sheets, int squares) {
+  TriangleMesh mesh = reference::unit_square(squares);
+  for (int i = 1; i < sheets; ++i)
+    mesh = reference::both(mesh, reference::moved(reference::unit_square(squares), {0, 0, 0.1 * limit * i / sheets}));
+  return mesh;
+}
+
+TEST(SubTriangleCover, CoversATriangleAmongThousandsOfNearFaces) {
+  Covered it(stack(40, 8));
+  const FaceBoxes boxes(it.mesh);
+  Corners corners{{{0.02, 0.03, -0.1 * limit}, {0.97, 0.02, 0.1 * limit}, {0.1, 0.95, 0}}};
+  ASSERT_TRUE(it.sub_triangles.covers(corners, boxes, limit, it.faces));
+  EXPECT_TRUE(std::ranges::is_sorted(it.faces));
+  EXPECT_LT(it.faces.size(), 300U);
+  EXPECT_LE(it.distance(corners), limit * (1 + CandidateFaces::plane_slack));
+  corners[2] = {0.1, 1 + 1.1 * limit, 0};
+  EXPECT_FALSE(it.sub_triangles.covers(corners, boxes, limit, it.faces));
+  EXPECT_TRUE(it.faces.empty());
+}
+
+/// All sheets but one have a hole at the same place.
+TEST(SubTriangleCover, FindsTheOneSheetThatHasNoHole) {
+  const Corners corners{{{0.02, 0.03, 0}, {0.97, 0.02, 0}, {0.1, 0.95, 0}}};
+  for (const bool has_one : {true, false}) {
+    Covered it(stack(40, 8));
+    std::vector<std::uint32_t> gone;
+    for (std::uint32_t f = has_one ? 128 : 0; f < it.mesh.face_count(); ++f)
+      if (squared_distance(it.mesh.triangle(f), {0.31, 0.33, 0}) < 4 * limit * limit) gone.push_back(f);
+    it.mesh.remove_component(gone);
+    EXPECT_EQ(it.sub_triangles.covers(corners, FaceBoxes(it.mesh), limit, it.faces), has_one);
+    EXPECT_EQ(it.faces.empty(), !has_one);
+  }
+}
+
 }  // namespace sub_triangle_cover_test
 }  // namespace meshbound

@@ -49,8 +49,7 @@ std::span<const std::uint32_t> ProofWorkers::Worker::cover(std::uint32_t t) {
     if (loops_.covers(t, start_at, is_usable, drafted_)) return drafted_;
   }
   if (const std::uint32_t f = across(at, corners, limit); f != no_index) return draft(f);
-  find_around(at, {corners, state_.tolerance});
-  cover_by_found(t, corners, limit, is_usable);
+  if (find_around(at, {corners, state_.tolerance})) cover_by_found(t, corners, limit, is_usable);
   return drafted_;
 }
 
@@ -61,7 +60,10 @@ std::span<const std::uint32_t> ProofWorkers::Worker::cover_anywhere(std::uint32_
   if (!(limit > 0)) return {};
   found_.clear();
   const ReachOfTriangle reach(corners, state_.tolerance);
-  boxes.find(reach.box(), found_);
+  if (!boxes.find_few(reach.box(), max_found, found_)) {
+    (void)sub_triangles_.covers(corners, boxes, limit, drafted_);
+    return drafted_;
+  }
   std::erase_if(found_,
                 [&](std::uint32_t f) { return state_.mesh.is_removed(f) || !reach.meets(state_.mesh.triangle(f)); });
   if (!sub_triangles_.is_near_one_of(found_, centroid(corners), limit)) return {};
@@ -377,28 +379,31 @@ bool ProofWorkers::Worker::cover_among(std::uint32_t t, std::span<const std::uin
   return !drafted_.empty();
 }
 
-void ProofWorkers::Worker::find_around(const std::array<std::uint32_t, 3>& at, const ReachOfTriangle& reach) {
+bool ProofWorkers::Worker::find_around(const std::array<std::uint32_t, 3>& at, const ReachOfTriangle& reach) {
   found_.clear();
   found_marks_.clear();
   for (const std::uint32_t f : at)
     if (f != no_index && found_marks_.insert(f)) found_.push_back(f);
-  spread(reach, [](std::uint32_t) { return true; });
+  return spread(reach, [](std::uint32_t) { return true; });
 }
 
 template <class Wanted>
-void ProofWorkers::Worker::spread(const ReachOfTriangle& reach, const Wanted& is_wanted) {
+bool ProofWorkers::Worker::spread(const ReachOfTriangle& reach, const Wanted& is_wanted) {
   vertex_marks_.clear();
-  for (std::size_t i = 0; i < found_.size() && found_.size() < max_found; ++i) {
+  std::size_t looked_at = 0;
+  const auto goes_on = [&] { return found_.size() < max_found && looked_at < max_looked_at; };
+  for (std::size_t i = 0; i < found_.size() && goes_on(); ++i) {
     for (Corner c = 3 * found_[i]; c < 3 * found_[i] + 3; ++c) {
       if (!vertex_marks_.insert(state_.mesh.vertex(c))) continue;
       state_.mesh.for_each_corner(state_.mesh.vertex(c), [&](Corner d) {
         const std::uint32_t f = d / 3;
-        if (!found_marks_.insert(f) || !is_wanted(f) || !reach.meets(state_.mesh.triangle(f))) return true;
-        found_.push_back(f);
-        return true;
+        ++looked_at;
+        if (found_marks_.insert(f) && is_wanted(f) && reach.meets(state_.mesh.triangle(f))) found_.push_back(f);
+        return goes_on();
       });
     }
   }
+  return goes_on();
 }
 
 std::span<const std::uint32_t> ProofWorkers::Worker::draft(std::uint32_t face) {

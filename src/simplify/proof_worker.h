@@ -117,11 +117,13 @@ class ProofWorkers::Worker {
   template <class Owned>
   bool cover_among(std::uint32_t t, std::span<const std::uint32_t> changed, const Owned& owned);
 
-  /// Finds the faces that hang together with those at the corners and that meet `reach`.
-  void find_around(const std::array<std::uint32_t, 3>& at, const ReachOfTriangle& reach);
-  /// Adds the faces that hang together with those found, by faces of which that is true, and that meet `reach`.
+  /// Finds the faces that hang together with those at the corners and that meet `reach`. False if they are many: then
+  /// it finds some only.
+  [[nodiscard]] bool find_around(const std::array<std::uint32_t, 3>& at, const ReachOfTriangle& reach);
+  /// Adds the faces that hang together with those found, by faces of which that is true, and that meet `reach`. False
+  /// if they are many: then it adds some only.
   template <class Wanted>
-  void spread(const ReachOfTriangle& reach, const Wanted& is_wanted);
+  bool spread(const ReachOfTriangle& reach, const Wanted& is_wanted);
 
   std::span<const std::uint32_t> draft(std::uint32_t face);
   void take(FaceMask used, std::vector<std::uint32_t>& faces) const;
@@ -168,8 +170,9 @@ class ProofWorkers::Worker {
   /// A walk to the face under a point takes one or two steps where the faces are large.
   static constexpr int max_steps = 8;
 
-  /// Faces that are looked at around an original triangle.
-  static constexpr std::size_t max_found = 4096;
+  /// Faces around an original triangle that are listed, and those that are looked at for the list. Where there are
+  /// more, boxes find those that are nearest.
+  static constexpr std::size_t max_found = 256, max_looked_at = 4096;
 };
 
 }  // namespace meshbound

@@ -1,41 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
-#include "simplify/cover/box_tree.h"
+#include "simplify/cover/face_boxes.h"
 #include "simplify/cover/id_list.h"
 #include "simplify/decimation_state.h"
 
 namespace meshbound {
-
-/// The boxes of faces of a mesh at the time of construction, to find faces near something without samples.
-class FaceBoxes {
- public:
-  /// Takes the boxes of all faces. O(n log n).
-  explicit FaceBoxes(const ArrayMesh& mesh);
-  /// Takes the boxes of the faces that meet one of these boxes. Expected O(n log m) for m boxes, and O(k log k) for k
-  /// such faces.
-  FaceBoxes(const ArrayMesh& mesh, const BoxTree& wanted);
-  /// Whether so many of the faces have changed or gone since that boxes should be made anew: they are found where they
-  /// were, and what finds them looks at each.
-  [[nodiscard]] bool are_outdated(std::size_t changed) const { return changed * faces_of_changed > faces_.size(); }
-  /// Appends the faces whose boxes meet `box`.
-  void find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const;
-
- private:
-  template <class IsWanted>
-  void take_faces(const ArrayMesh& mesh, const IsWanted& is_wanted);
-
-  static constexpr std::size_t faces_of_changed = 16;  ///< at least, for each changed face
-
-  std::vector<std::uint32_t> faces_;
-  std::optional<BoxTree> tree_;
-};
 
 /// Scratch memory of the threads that prove, kept from proof to proof.
 class ProofWorkers {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
@@ -67,6 +68,30 @@ unsigned BoxTreeOf<axes>::Node::meeting(const Wanted& box) const {
   return bits;
 }
 #endif
+
+/// Differences of rounded coordinates are wrong by their rounding and by that of the point; that of a box is no larger
+/// than both together.
+template <int axes>
+typename BoxTreeOf<axes>::NearLanes BoxTreeOf<axes>::Node::near(const Corner& point, double squared_reach) const {
+  constexpr float rounding = 0x1p-20F;
+  std::array<float, width> squared{};
+  for (Eigen::Index axis = 0; axis < axes; ++axis) {
+    const float at = point[axis], error = rounding * std::abs(at);
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      const float beyond = (1 - rounding) * std::max(lo[axis][lane] - at, at - hi[axis][lane]) - error;
+      squared[lane] += beyond > 0 ? beyond * beyond : 0;  // 0 where it is not a number
+    }
+  }
+  NearLanes near;
+  for (std::size_t lane = 0; lane < width; ++lane) {
+    const NearLane found{std::min(squared[lane], std::numeric_limits<float>::max()), lane};
+    if (std::isnan(lo[0][lane]) || !(found.squared <= squared_reach)) continue;
+    std::size_t i = near.count++;
+    for (; i > 0 && near.lanes[i - 1].squared > found.squared; --i) near.lanes[i] = near.lanes[i - 1];
+    near.lanes[i] = found;
+  }
+  return near;
+}
 
 namespace {
 

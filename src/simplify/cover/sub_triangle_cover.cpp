@@ -27,21 +27,34 @@ constexpr std::size_t max_sub_triangles_among_same = 256;
 
 bool SubTriangleCover::covers(const TriangleCorners& corners, std::span<const std::uint32_t> around, double limit,
                               std::vector<std::uint32_t>& covering) {
+  return covers({corners, 0, around}, nullptr, limit, covering);
+}
+
+bool SubTriangleCover::covers(const TriangleCorners& corners, const FaceBoxes& boxes, double limit,
+                              std::vector<std::uint32_t>& covering) {
+  return covers({corners, 0, {}}, &boxes, limit, covering);
+}
+
+bool SubTriangleCover::covers(const SubTriangle& whole, const FaceBoxes* boxes, double limit,
+                              std::vector<std::uint32_t>& covering) {
   covering.clear();
   around_.clear();
-  sub_triangles_.assign(1, {corners, 0, around});
-  if (!covers_all(limit, covering)) return covering.clear(), false;
+  sub_triangles_.assign(1, whole);
+  if (!covers_all(boxes, limit, covering)) return covering.clear(), false;
   sort_unique(covering);
   return true;
 }
 
 /// Large sub-triangles come first: a part that is not near any face is found before others are cut into small pieces.
-bool SubTriangleCover::covers_all(double limit, std::vector<std::uint32_t>& covering) {
+bool SubTriangleCover::covers_all(const FaceBoxes* boxes, double limit, std::vector<std::uint32_t>& covering) {
   for (std::size_t i = 0, count = 1; i < sub_triangles_.size(); ++i) {
-    choose_around(sub_triangles_[i], limit);
+    if (boxes != nullptr)
+      choose_nearest(sub_triangles_[i].corners, *boxes, limit);
+    else
+      choose_around(sub_triangles_[i], limit);
     const SubTriangle sub_triangle = sub_triangles_[i];
     if (!is_near_one_of(chosen_, centroid(sub_triangle.corners), limit)) return false;
-    const bool has_all = choose_candidates(sub_triangle.corners, limit);
+    const bool has_all = choose_candidates(sub_triangle.corners, limit) && boxes == nullptr;
     cover_.begin(limit);
     for (const std::uint32_t f : chosen_) cover_.add(mesh_.triangle(f), f);
     const std::optional<FaceMask> used = cover_.cover_sub_triangle(sub_triangle.corners, sub_triangle.halvings);
@@ -86,6 +99,17 @@ void SubTriangleCover::choose_around(SubTriangle& sub_triangle, double limit) {
     if (reach.meets(mesh_.triangle(f))) chosen_.push_back(f);
   if (sub_triangle.around.size() > CandidateFaces::capacity && 2 * chosen_.size() <= sub_triangle.around.size())
     sub_triangle.around = around_.emplace_back(chosen_);
+}
+
+/// Chooses the faces nearest to the middle and to each corner, as many for each of these points as candidates may be in
+/// all: a point that is near none of them is near no face that the boxes find.
+void SubTriangleCover::choose_nearest(const TriangleCorners& corners, const FaceBoxes& boxes, double limit) {
+  chosen_.clear();
+  for (const Vec3 p : {centroid(corners), corners[0], corners[1], corners[2]}) {
+    boxes.find_nearest(mesh_, p, limit, CandidateFaces::capacity / 4, nearest_);
+    for (const FaceBoxes::NearFace& near : nearest_)
+      if (std::find(chosen_.begin(), chosen_.end(), near.face) == chosen_.end()) chosen_.push_back(near.face);
+  }
 }
 
 /// Chooses among those chosen, if they are too many, the faces that hold most corners, then those nearest to the
