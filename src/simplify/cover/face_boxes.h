@@ -30,7 +30,7 @@ class FaceBoxes {
                               std::vector<std::uint32_t>& found) const;
 
   struct NearFace {
-    double squared = 0;  ///< its distance from the point, as computed
+    double squared = 0;  ///< the square of its distance from the point, as computed
     std::uint32_t face = 0;
   };
   /// The faces nearest to a point, the nearest first, of those that the mesh still has and that are within `limit` of
