@@ -69,8 +69,8 @@ unsigned BoxTreeOf<axes>::Node::meeting(const Wanted& box) const {
 }
 #endif
 
-/// Bounds are lowered by the rounding of the coordinates of the point and of the boxes: those of a box are at most those
-/// of the point and the difference together.
+/// Bounds are lowered by the rounding of the coordinates of the point and of the boxes: those of a box are at most
+/// those of the point and the difference together.
 template <int axes>
 typename BoxTreeOf<axes>::NearLanes BoxTreeOf<axes>::Node::near(const Corner& point, double squared_reach) const {
   constexpr float rounding = 0x1p-20F;

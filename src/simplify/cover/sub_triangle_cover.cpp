@@ -101,8 +101,9 @@ void SubTriangleCover::choose_around(SubTriangle& sub_triangle, double limit) {
     sub_triangle.around = around_.emplace_back(chosen_);
 }
 
-/// Chooses the faces nearest to the middle and to each corner, for each of these points a quarter of the candidates that
-/// a cover may have. A point that is near none of them is near no face, unless more are around it than are looked at.
+/// Chooses the faces nearest to the middle and to each corner, for each of these points a quarter of the candidates
+/// that a cover may have. A point that is near none of them is near no face, unless more are around it than are looked
+/// at.
 void SubTriangleCover::choose_nearest(const TriangleCorners& corners, const FaceBoxes& boxes, double limit) {
   chosen_.clear();
   for (const Vec3 p : {centroid(corners), corners[0], corners[1], corners[2]}) {
