@@ -115,7 +115,7 @@ TEST(Atlas, LooksAtFewOfTheTrianglesThatShareATexture) {
     EXPECT_GT(atlas.squared_distance({0.5, 0.125}, 0, p, 0.1, found), 0.1 * 0.1);
     EXPECT_EQ(atlas.squared_distance({1.5, 0.125}, 0, p, 0.1, found), 0);
     EXPECT_EQ(atlas.squared_distance({0.25, 0.75}, 1, p, 0.5, found), 0);
-    EXPECT_GT(atlas.squared_distance_of_far_point({0.25, 0.75}, 0, p, 0.5), 0.25);
+    EXPECT_GT(atlas.squared_distance_of_far_point({0.25, 0.75}, 0, p, 0.5, found), 0.25);
   }
 }
 

@@ -130,7 +130,7 @@ Charts::Charts(const TexturedMesh& mesh) : mesh_(mesh), units_(units_of(mesh)) {
     in_space.push_back(places_.back());
   }
   with_area_.emplace(with_area, places_);
-  if (with_area_->is_crowded()) hubs_ = Hubs(triangles_);
+  if (with_area_->is_crowded()) hubs_ = Hubs(mesh.triangles, with_area);
   if (!hubs_.empty()) {
     rank_.resize(triangles_.size());
     for (std::uint32_t k = 0; k < rank_.size(); ++k) rank_[with_area_->in_texture().order()[k]] = k;
@@ -155,8 +155,8 @@ void Charts::find_without_area(const Eigen::AlignedBox3d& box, const BoxTree& tr
 void Charts::find_with_area(const ChartTriangle& a, std::vector<std::uint32_t>& found) const {
   found.clear();
   with_area_->in_texture().find(box_in_texture(*a.source), found);
-  hubs_.find(a, found);
-  hubs_.find_touching(a, found);
+  hubs_.find(a.source->coordinates, a.source->material, found);
+  hubs_.find_touching(a.source->coordinates, a.source->material, found);
   put_in_order(found);
 }
 
@@ -209,7 +209,7 @@ void Charts::find_candidates(const ChartTriangle& a, double reach, ChartCandidat
   found.indices.clear();
   if (a.chart != Chart::Area) return find_near_without_area(a, reach, found);
   with_area_->find(box_in_texture(*a.source), place_within_reach(a, reach), found.indices);
-  hubs_.find(a, found.indices);
+  hubs_.find(a.source->coordinates, a.source->material, found.indices);
   put_in_order(found.indices);
   const Eigen::AlignedBox3d place = place_of(*a.source);
   const Plane plane(*a.source);

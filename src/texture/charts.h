@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "simplify/cover/box_tree.h"
+#include "simplify/cover/hubs.h"
 #include "simplify/cover/placed_boxes.h"
-#include "texture/hubs.h"
 #include "texture/overlay.h"
 
 namespace meshbound {

@@ -77,7 +77,7 @@ bool TextureGuard::is_strip_free(const TextureMap::Sample& sample, const Eigen::
 }
 
 bool TextureGuard::has_no_far_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p) {
-  exceeding_squared_ = map_.atlas().squared_distance_of_far_point(coordinate, material, p, map_.limit);
+  exceeding_squared_ = map_.atlas().squared_distance_of_far_point(coordinate, material, p, map_.limit, found_);
   return exceeding_squared_ == 0;
 }
 

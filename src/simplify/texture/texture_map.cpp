@@ -88,7 +88,22 @@ Atlas::Atlas(const std::vector<Vec3>& vertices, const std::vector<Triangle>& tri
     on_lines[t] = box_of(coordinates_[t], material(t));
   }
   with_area_.emplace(boxes, in_space);
+  if (with_area_->is_crowded()) hubs_ = Hubs(as_textured(), boxes);
+  if (!hubs_.empty()) {
+    for (std::size_t t = 0; t < boxes.size(); ++t)
+      if (hubs_.has(t)) boxes[t].setEmpty();
+    with_area_.emplace(boxes, in_space);
+  }
   if (!on_lines.empty()) on_lines_.emplace(on_lines, in_space);
+}
+
+std::vector<TexturedTriangle> Atlas::as_textured() const {
+  std::vector<TexturedTriangle> triangles(coordinates_.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    const TriangleCorners at = corners(t);
+    triangles[t] = {{to_eigen(at[0]), to_eigen(at[1]), to_eigen(at[2])}, coordinates_[t], t, material(t)};
+  }
+  return triangles;
 }
 
 TriangleCorners Atlas::corners(std::uint32_t triangle) const {
@@ -107,14 +122,27 @@ std::optional<Vec3> Atlas::point_inside(std::uint32_t triangle, const Eigen::Vec
   return weights ? std::optional(point_of(corners(triangle), *weights)) : std::nullopt;
 }
 
+/// Appends the triangles around hubs that may have a coordinate; of those that have the same point with it, one.
+void Atlas::find_around_hubs(const Eigen::Vector2d& coordinate, std::uint32_t material,
+                             std::vector<std::uint32_t>& found) const {
+  if (hubs_.empty()) return;
+  const Hubs::Coordinates at = {coordinate, coordinate, coordinate};
+  hubs_.find(at, material, found);
+  hubs_.find_touching(at, material, found);
+}
+
 /// The squared distance from `p` of the first point of the original with this coordinate and material whose squared
 /// distance is accepted; 0 if there is none.
 template <class Accept>
 double Atlas::squared_distance_of_some_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
-                                             const Accept& accept) const {
+                                             std::vector<std::uint32_t>& found, const Accept& accept) const {
   BoxTree::Search in_areas(with_area_->in_texture(), box_at(coordinate, material));
   while (const std::optional<std::uint32_t> t = in_areas.next())
     if (const auto q = point_inside(*t, coordinate); q && accept(squared_length(*q - p))) return squared_length(*q - p);
+  found.clear();
+  find_around_hubs(coordinate, material, found);
+  for (const std::uint32_t t : found)
+    if (const auto q = point_inside(t, coordinate); q && accept(squared_length(*q - p))) return squared_length(*q - p);
   if (!on_lines_) return 0;
   BoxTree::Search in_lines(on_lines_->in_texture(), box_around(coordinate, material));
   while (const std::optional<std::uint32_t> t = in_lines.next()) {
@@ -125,8 +153,8 @@ double Atlas::squared_distance_of_some_point(const Eigen::Vector2d& coordinate, 
 }
 
 double Atlas::squared_distance_of_far_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
-                                            double limit) const {
-  return squared_distance_of_some_point(coordinate, material, p,
+                                            double limit, std::vector<std::uint32_t>& found) const {
+  return squared_distance_of_some_point(coordinate, material, p, found,
                                         [limit](double squared) { return squared > limit * limit; });
 }
 
@@ -135,12 +163,13 @@ double Atlas::squared_distance(const Eigen::Vector2d& coordinate, std::uint32_t 
   double nearest = HUGE_VAL;
   found.clear();
   with_area_->find(box_at(coordinate, material), box_around(p, limit), found);
+  find_around_hubs(coordinate, material, found);
   for (const std::uint32_t t : found)
     if (const auto q = point_inside(t, coordinate)) nearest = std::min(nearest, squared_length(*q - p));
   if (on_lines_ && !(nearest <= limit * limit))
     nearest = std::min(nearest, squared_distance_to_lines(coordinate, material, p, limit, found));
   if (nearest < HUGE_VAL) return nearest;
-  return squared_distance_of_some_point(coordinate, material, p, [](double) { return true; });
+  return squared_distance_of_some_point(coordinate, material, p, found, [](double) { return true; });
 }
 
 /// As `squared_distance` among the triangles with a line of coordinates; infinite if none within the limit has the

@@ -11,6 +11,7 @@
 #include "geometry/triangle_corners.h"
 #include "meshbound/triangle_mesh.h"
 #include "simplify/cover/box_tree.h"
+#include "simplify/cover/hubs.h"
 #include "simplify/cover/placed_boxes.h"
 #include "simplify/mesh/array_mesh.h"
 #include "simplify/mesh/feature_lines.h"
@@ -42,9 +43,10 @@ class Atlas {
     return materials_.empty() ? 0 : materials_[triangle];
   }
   /// The squared distance from `p` of a point of the original with this coordinate and material that is farther away
-  /// than `limit`; 0 if there is none. Expected O(log n) for few such points within the limit.
+  /// than `limit`; 0 if there is none. `found` is scratch memory. Expected O(log n) for few such points within the
+  /// limit.
   [[nodiscard]] double squared_distance_of_far_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
-                                                     double limit) const;
+                                                     double limit, std::vector<std::uint32_t>& found) const;
   /// The squared distance from `p` to the nearest point of the original with this coordinate and material; 0 if there
   /// is none. Where all of them are farther away than `limit`, it need not be the nearest one. Triangles with a single
   /// coordinate do not count: they are compared as surfaces. `found` is scratch memory. Expected O(log n) for few such
@@ -59,13 +61,17 @@ class Atlas {
   [[nodiscard]] std::optional<Vec3> point_inside(std::uint32_t triangle, const Eigen::Vector2d& coordinate) const;
   template <class Accept>
   [[nodiscard]] double squared_distance_of_some_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
-                                                      const Accept& accept) const;
+                                                      std::vector<std::uint32_t>& found, const Accept& accept) const;
+  [[nodiscard]] std::vector<TexturedTriangle> as_textured() const;
+  void find_around_hubs(const Eigen::Vector2d& coordinate, std::uint32_t material,
+                        std::vector<std::uint32_t>& found) const;
 
   const std::vector<Vec3>& vertices_;
   const std::vector<Triangle>& triangles_;
   std::vector<CornerCoordinates> coordinates_;
   std::vector<std::uint32_t> materials_;
-  std::optional<PlacedBoxes> with_area_;  ///< the triangles that have an area in the texture
+  Hubs hubs_;
+  std::optional<PlacedBoxes> with_area_;  ///< the triangles with an area in the texture that are not around a hub
   std::optional<PlacedBoxes> on_lines_;   ///< those whose texture coordinates lie on a line; absent without any
 };
 

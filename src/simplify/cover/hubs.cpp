@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "texture/hubs.h"
+#include "simplify/cover/hubs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "texture/charts.h"
+#include "geometry/boxes.h"
 
 namespace meshbound {
 namespace {
@@ -36,11 +36,12 @@ struct CornerThere {
 };
 
 /// The corners of triangles with an area, those with the same coordinate one after the other.
-std::vector<CornerThere> sorted_corners(std::span<const ChartTriangle> triangles) {
+std::vector<CornerThere> sorted_corners(std::span<const TexturedTriangle> triangles,
+                                        std::span<const Eigen::AlignedBox3d> in_texture) {
   std::vector<CornerThere> corners;
-  for (const ChartTriangle& t : triangles)
-    if (t.chart == Chart::Area)
-      for (const Eigen::Vector2d& at : t.source->coordinates) corners.push_back({t.source->material, at, t.number});
+  for (std::uint32_t i = 0; i < triangles.size(); ++i)
+    if (!in_texture[i].isEmpty())
+      for (const Eigen::Vector2d& at : triangles[i].coordinates) corners.push_back({triangles[i].material, at, i});
   std::sort(corners.begin(), corners.end(), [](const CornerThere& p, const CornerThere& q) {
     return std::pair(p.key(), p.triangle) < std::pair(q.key(), q.triangle);
   });
@@ -56,9 +57,9 @@ struct Hubs::Directions {
   bool are_known = true;
 };
 
-Hubs::Directions Hubs::directions_from(const Eigen::Vector2d& hub, const TexturedTriangle& t) {
+Hubs::Directions Hubs::directions_from(const Eigen::Vector2d& hub, const Coordinates& t) {
   Directions directions;
-  for (const Eigen::Vector2d& corner : t.coordinates) {
+  for (const Eigen::Vector2d& corner : t) {
     const Eigen::Vector2d way = corner - hub;
     if (way == Eigen::Vector2d::Zero()) continue;
     directions.are_known = directions.are_known && way.allFinite();
@@ -83,8 +84,8 @@ std::optional<Hubs::Arc> Hubs::arc_of(const Directions& directions) {
   return std::nullopt;
 }
 
-Hubs::Hubs(std::span<const ChartTriangle> triangles) : triangles_(triangles) {
-  const std::vector<CornerThere> corners = sorted_corners(triangles);
+Hubs::Hubs(std::span<const TexturedTriangle> triangles, std::span<const Eigen::AlignedBox3d> in_texture) {
+  const std::vector<CornerThere> corners = sorted_corners(triangles, in_texture);
   std::vector<std::uint32_t> around;
   for (std::size_t first = 0, end = 0; first < corners.size(); first = end) {
     while (end < corners.size() && corners[end].key() == corners[first].key()) ++end;
@@ -92,23 +93,24 @@ Hubs::Hubs(std::span<const ChartTriangle> triangles) : triangles_(triangles) {
     around.clear();
     for (std::size_t i = first; i < end; ++i)
       if (!has(corners[i].triangle)) around.push_back(corners[i].triangle);
-    add_hub(corners[first].at, around);
+    add_hub(corners[first].at, around, triangles, in_texture);
   }
   std::vector<Eigen::AlignedBox3d> boxes(hubs_.size());
   for (std::size_t h = 0; h < hubs_.size(); ++h)
-    for (const Sector& sector : hubs_[h].sectors) boxes[h].extend(box_in_texture(*triangles[sector.triangle].source));
+    for (const Sector& sector : hubs_[h].sectors) boxes[h].extend(sector.box);
   boxes_.emplace(boxes);
 }
 
-void Hubs::add_hub(const Eigen::Vector2d& at, std::span<const std::uint32_t> around) {
+void Hubs::add_hub(const Eigen::Vector2d& at, std::span<const std::uint32_t> around,
+                   std::span<const TexturedTriangle> triangles, std::span<const Eigen::AlignedBox3d> in_texture) {
   Hub hub;
   hub.at = at;
   std::vector<std::pair<std::array<double, 3>, std::uint32_t>> places;
   for (const std::uint32_t i : around) {
-    const TexturedTriangle& t = *triangles_[i].source;
-    const std::optional<Arc> arc = arc_of(directions_from(at, t));
+    const TexturedTriangle& t = triangles[i];
+    const std::optional<Arc> arc = arc_of(directions_from(at, t.coordinates));
     if (!arc) continue;
-    hub.sectors.push_back({*arc, i});
+    hub.sectors.push_back({*arc, i, in_texture[i]});
     hub.max_turn = std::max(hub.max_turn, arc->turn);
     const auto corner =
         static_cast<std::size_t>(std::find(t.coordinates.begin(), t.coordinates.end(), at) - t.coordinates.begin());
@@ -118,9 +120,9 @@ void Hubs::add_hub(const Eigen::Vector2d& at, std::span<const std::uint32_t> aro
   const double turns = std::accumulate(hub.sectors.begin(), hub.sectors.end(), 0.0,
                                        [](double sum, const Sector& sector) { return sum + sector.arc.turn; });
   if (hub.sectors.size() < many_corners || turns > max_layers * full_turn) return;
-  hub.material = triangles_[hub.sectors.front().triangle].source->material;
-  hub_of_.resize(triangles_.size(), no_hub);
-  for (const Sector& sector : hub.sectors) hub_of_[sector.triangle] = static_cast<std::uint32_t>(hubs_.size());
+  hub.material = triangles[hub.sectors.front().triangle].material;
+  is_around_.resize(triangles.size());
+  for (const Sector& sector : hub.sectors) is_around_[sector.triangle] = true;
   std::stable_sort(hub.sectors.begin(), hub.sectors.end(),
                    [](const Sector& p, const Sector& q) { return p.arc.start < q.arc.start; });
   std::sort(places.begin(), places.end());
@@ -129,25 +131,26 @@ void Hubs::add_hub(const Eigen::Vector2d& at, std::span<const std::uint32_t> aro
   hubs_.push_back(std::move(hub));
 }
 
-/// The hubs whose triangles may have coordinates of `a`.
-std::vector<std::uint32_t> Hubs::near(const ChartTriangle& a) const {
-  std::vector<std::uint32_t> found;
-  if (!empty()) boxes_->find(box_in_texture(*a.source), found);
-  return found;
+/// Calls `visit(hub)` for the hubs whose triangles may have coordinates in a box.
+template <class Visit>
+void Hubs::for_each_near(const Eigen::AlignedBox3d& box, const Visit& visit) const {
+  if (empty()) return;
+  BoxTree::Search near(*boxes_, box);
+  while (const std::optional<std::uint32_t> h = near.next()) visit(hubs_[*h]);
 }
 
-/// A point of `a` and of a triangle around the hub lies in one direction from there. Arcs are looked for as they are
-/// and a full turn away: the one of `a` begins anywhere in a full turn.
-void Hubs::find_in(const Hub& hub, const ChartTriangle& a, std::vector<std::uint32_t>& found) const {
-  const Directions directions = directions_from(hub.at, *a.source);
+/// A point of `a`, whose box in the texture is `box`, and of a triangle around the hub lies in one direction from
+/// there. Arcs are looked for as they are and a full turn away: the one of `a` begins anywhere in a full turn.
+void Hubs::find_in(const Hub& hub, const Coordinates& a, const Eigen::AlignedBox3d& box,
+                   std::vector<std::uint32_t>& found) {
+  const Directions directions = directions_from(hub.at, a);
   if (directions.count == 0) return;  // `a` has no other coordinate
-  const Eigen::AlignedBox3d box = box_in_texture(*a.source);
-  const auto take = [&](std::uint32_t i) {
-    if (box.intersects(box_in_texture(*triangles_[i].source))) found.push_back(i);
+  const auto take = [&](const Sector& sector) {
+    if (box.intersects(sector.box)) found.push_back(sector.triangle);
   };
   const std::optional<Arc> arc = arc_of(directions);
   if (!arc || arc->turn + hub.max_turn > full_turn - 4 * rounding_of_angles) {
-    for (const Sector& sector : hub.sectors) take(sector.triangle);
+    for (const Sector& sector : hub.sectors) take(sector);
     return;
   }
   for (const double by : {-full_turn, 0.0, full_turn}) {
@@ -155,21 +158,21 @@ void Hubs::find_in(const Hub& hub, const ChartTriangle& a, std::vector<std::uint
     auto sector = std::lower_bound(hub.sectors.begin(), hub.sectors.end(), start - hub.max_turn,
                                    [](const Sector& s, double angle) { return s.arc.start < angle; });
     for (; sector != hub.sectors.end() && sector->arc.start <= end; ++sector)
-      if (sector->arc.start + sector->arc.turn >= start) take(sector->triangle);
+      if (sector->arc.start + sector->arc.turn >= start) take(*sector);
   }
 }
 
-void Hubs::find(const ChartTriangle& a, std::vector<std::uint32_t>& found) const {
-  for (const std::uint32_t h : near(a)) find_in(hubs_[h], a, found);
+void Hubs::find(const Coordinates& a, std::uint32_t material, std::vector<std::uint32_t>& found) const {
+  const Eigen::AlignedBox3d box = box_of(a, material);
+  for_each_near(box, [&](const Hub& hub) { find_in(hub, a, box, found); });
 }
 
-void Hubs::find_touching(const ChartTriangle& a, std::vector<std::uint32_t>& found) const {
-  const Eigen::AlignedBox3d box = box_in_texture(*a.source);
-  for (const std::uint32_t h : near(a)) {
-    const Hub& hub = hubs_[h];
+void Hubs::find_touching(const Coordinates& a, std::uint32_t material, std::vector<std::uint32_t>& found) const {
+  const Eigen::AlignedBox3d box = box_of(a, material);
+  for_each_near(box, [&](const Hub& hub) {
     if (box.contains(Eigen::Vector3d(hub.at.x(), hub.at.y(), hub.material)))
       found.insert(found.end(), hub.in_places.begin(), hub.in_places.end());
-  }
+  });
 }
 
 }  // namespace meshbound
