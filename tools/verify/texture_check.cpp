@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "verify/texture_check.h"
 
-#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <tuple>
+#include <optional>
 #include <utility>
+#include <vector>
+
+#include "verify/texture_domain.h"
+#include "verify/texture_index.h"
 
 namespace meshbound::verify {
 namespace {
@@ -13,7 +17,6 @@ namespace {
 constexpr int deepest_texture_cut = 36;  ///< twelve halvings of the weight of each corner
 constexpr int weight_bits = 40;          ///< levels are multiples of 2^-40
 constexpr std::size_t max_rest = 256;    ///< pieces of what is not covered
-constexpr std::size_t block_size = 32;   ///< triangles of a block of the index
 
 /// Work that a proof may cost for each byte and triangle: some 50 us. Proofs for seven models of games, simplified at
 /// 0.1% to 1% of their diagonals, need up to 16, those at a tolerance of 0 up to 23, and those for grids of squares of
@@ -36,30 +39,6 @@ double rough_area(const DomainPolygon& polygon) {
     doubled += p[0] * q[1] - p[1] * q[0];
   }
   return std::fabs(doubled) / 2;
-}
-
-/// On which side of the line from p to q a point lies: 1 left, -1 right, 0 on it. Empty where doubles cannot tell.
-std::optional<int> certain_side(const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Eigen::Vector2d& point) {
-  if (point == p || point == q) return 0;
-  const Eigen::Vector2d way = q - p, to = point - p;
-  const double left = way.x() * to.y(), right = way.y() * to.x(), size = std::fabs(left) + std::fabs(right);
-  // Four differences, two products, their difference: less than 4 roundings of `size`; none underflows.
-  const bool is_certain = std::fabs(left - right) > 0x1p-50 * size && size > 0x1p-900 && size < 0x1p900;
-  if (!is_certain) return std::nullopt;
-  return left > right ? 1 : -1;
-}
-
-/// Whether an edge of `a` has all of `b` on its other side or on its line, by its corners, so that no area is common.
-bool has_separating_edge(const TextureSurface::Triangle& a, const TextureSurface::Triangle& b) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Eigen::Vector2d &p = a.coordinates[k], &q = a.coordinates[(k + 1) % 3];
-    const int inside = certain_side(p, q, a.coordinates[(k + 2) % 3]).value_or(0);
-    const bool separates = inside != 0 && std::all_of(b.coordinates.begin(), b.coordinates.end(), [&](const auto& uv) {
-                             return certain_side(p, q, uv).value_or(inside) != inside;
-                           });
-    if (separates) return true;
-  }
-  return false;
 }
 
 class TextureCheck {
@@ -199,7 +178,7 @@ class TextureCheck {
   }
 
   void check_uncovered(const DomainPolygon& piece, const std::vector<DomainPolygon>& rest) {
-    if (!near_) near_ = may_cover();
+    if (!near_) near_ = is_flat_ ? index_.touching(*at_) : index_.sharing_area(*at_);
     for (const TextureSurface::Triangle* const triangle : *near_) {
       work_.add_clip();  // where it has no area nothing is clipped
       require_work();
@@ -218,17 +197,6 @@ class TextureCheck {
     }
     has_uncovered_ = true;
     for (const DomainPolygon& polygon : rest) uncovered_area_ += 2 * at_->area * rough_area(polygon);
-  }
-
-  /// The triangles that may have an area of the texture in common with the triangle at hand, or any point of it where
-  /// it has no area. Around a vertex of thousands of triangles nearly all boxes meet, but no areas.
-  [[nodiscard]] std::vector<const TextureSurface::Triangle*> may_cover() const {
-    std::vector<const TextureSurface::Triangle*> result = index_.near(*at_);
-    const auto is_apart = [&](const TextureSurface::Triangle* triangle) {
-      return !is_flat_ && (has_separating_edge(*at_, *triangle) || has_separating_edge(*triangle, *at_));
-    };
-    result.erase(std::remove_if(result.begin(), result.end(), is_apart), result.end());
-    return result;
   }
 
   /// Whether a triangle covers any point of the piece, its border included.
@@ -276,49 +244,6 @@ class TextureCheck {
 };
 
 }  // namespace
-
-TextureIndex::Box TextureIndex::box_of(const TextureSurface::Triangle& triangle) {
-  const auto& uv = triangle.coordinates;
-  const Eigen::Vector2d low = uv[0].cwiseMin(uv[1]).cwiseMin(uv[2]), high = uv[0].cwiseMax(uv[1]).cwiseMax(uv[2]);
-  return {low.x(), low.y(), high.x(), high.y()};
-}
-
-bool TextureIndex::meet(const Box& a, const Box& b) {
-  return a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];
-}
-
-/// Strips of the texture, as many as blocks in each, so that the triangles of a block are close to each other.
-TextureIndex::TextureIndex(const TextureSurface& surface) {
-  for (const TextureSurface::Triangle& triangle : surface.triangles) order_.push_back(&triangle);
-  const auto by_u = [](const auto* a, const auto* b) { return box_of(*a)[0] < box_of(*b)[0]; };
-  const auto by_v = [](const auto* a, const auto* b) { return box_of(*a)[1] < box_of(*b)[1]; };
-  std::stable_sort(order_.begin(), order_.end(), by_u);
-  const auto strip =
-      static_cast<std::ptrdiff_t>(std::ceil(std::sqrt(static_cast<double>(order_.size()) / block_size)) * block_size);
-  for (auto begin = order_.begin(); begin != order_.end();) {
-    const auto end = begin + std::min(strip, order_.end() - begin);
-    std::stable_sort(begin, end, by_v);
-    begin = end;
-  }
-  for (std::size_t i = 0; i < order_.size(); ++i) {
-    const Box box = box_of(*order_[i]);
-    if (i % block_size == 0) blocks_.push_back(box);
-    Box& block = blocks_.back();
-    block = {std::min(block[0], box[0]), std::min(block[1], box[1]), std::max(block[2], box[2]),
-             std::max(block[3], box[3])};
-  }
-}
-
-std::vector<const TextureSurface::Triangle*> TextureIndex::near(const TextureSurface::Triangle& triangle) const {
-  std::vector<const TextureSurface::Triangle*> found;
-  const Box box = box_of(triangle);
-  for (std::size_t block = 0; block < blocks_.size(); ++block) {
-    if (!meet(box, blocks_[block])) continue;
-    for (std::size_t i = block * block_size; i < std::min(order_.size(), (block + 1) * block_size); ++i)
-      if (order_[i]->material == triangle.material && meet(box, box_of(*order_[i]))) found.push_back(order_[i]);
-  }
-  return found;
-}
 
 TextureProof check_texture(const TextureSurface& source, const TextureSurface& target, double tolerance,
                            const Section& section, const std::string& name) {

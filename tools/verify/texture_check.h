@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <array>
 #include <cstdint>
-#include <span>
 #include <string>
-#include <vector>
 
 #include "verify/certificate_reader.h"
-#include "verify/texture_domain.h"
 #include "verify/texture_surface.h"
 
 namespace meshbound::verify {
@@ -17,21 +13,6 @@ struct TextureProof {
   std::uint64_t pieces = 0, cuts = 0, bytes = 0;
   double uncovered_share = 0;  ///< of the area of the source: what the target does not cover in the texture; rounded
   double left_out_share = 0;   ///< of that area: triangles without area in the texture that have no proof; rounded
-};
-
-/// Finds the triangles whose texture coordinates may meet those of a triangle: blocks of triangles with their boxes.
-class TextureIndex {
- public:
-  explicit TextureIndex(const TextureSurface& surface);
-  /// Those of the same material whose boxes of texture coordinates meet. O(n / 32 + found).
-  [[nodiscard]] std::vector<const TextureSurface::Triangle*> near(const TextureSurface::Triangle& triangle) const;
-
- private:
-  using Box = std::array<double, 4>;  ///< lowest u and v, highest u and v
-  [[nodiscard]] static Box box_of(const TextureSurface::Triangle& triangle);
-  [[nodiscard]] static bool meet(const Box& a, const Box& b);
-  std::vector<const TextureSurface::Triangle*> order_;
-  std::vector<Box> blocks_;
 };
 
 /// Checks the proof that each point of the source whose texture coordinate lies inside what the target covers has a
