@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "geometry/eigen_vec3.h"
 #include "reference/point_triangle_cases.h"
 #include "simplify/texture/texture_map.h"
 #include "texture/charts.h"
+#include "textured_shapes.h"
 
 namespace meshbound {
 namespace placed_boxes_test {
@@ -93,6 +95,30 @@ TEST(Charts, LookAtFewOfTheTrianglesThatShareATexture) {
   }
   charts.find_others(charts.triangles().front(), found);
   EXPECT_EQ(found.others.size(), mesh.triangles.size() - 1);
+}
+
+// Triangles B that lie in a grid cover a half plane of the texture each, every other one all of it.
+TEST(TextureDeviation, ForgetsTrianglesFarFromAPiece) {
+  constexpr int n = 12;
+  constexpr double step = 1.0 / n;
+  reference::Random random(1);
+  TexturedMesh b;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const double turn = 0.001 * random.below(6283), size = 20;
+      const auto towards = [](double angle) { return Eigen::Vector2d(std::cos(angle), std::sin(angle)); };
+      const auto corner = [&](double x, double y, double turned) {
+        const Eigen::Vector2d edge = (i + j) % 2 == 1 ? (size / 2 * towards(turn)).eval() : Eigen::Vector2d(0, 0);
+        return test::Corner{{(i + x) * step, (j + y) * step, 0},
+                            Eigen::Vector2d(0.3, 0.3) + edge + size * towards(turn + turned)};
+      };
+      constexpr double third = 2 * std::numbers::pi / 3;
+      b.triangles.push_back(test::triangle(corner(0, 0, 0), corner(1, 0, third), corner(0, 1, 2 * third)));
+    }
+  const TexturedMesh a{{test::triangle({{0, 0, 0}, {0, 0}}, {{1, 0, 0}, {1, 0}}, {{0, 1, 0}, {0, 1}})}, {}};
+  const OneSidedTextureDeviation found = test::measured(a, test::numbered(b), 1e-4).a_to_b;
+  EXPECT_LE(found.bounds.upper - found.bounds.lower, 1e-4);
+  EXPECT_LT(found.pieces, 2400U);  // 4,000 where all stay
 }
 
 TEST(Atlas, LooksAtFewOfTheTrianglesThatShareATexture) {

@@ -260,8 +260,9 @@ class PieceSearch {
   }
 
   /// Moves the candidates of `part` that cover all of the piece to `full` and drops those that cover nothing, until one
-  /// is within the limit. Returns a line of one that covers the piece in part; absent if there is none.
-  std::optional<Line> sort_candidates(Piece& piece, PieceBound& bound) {
+  /// is within the limit. Returns whether one is; else `cuts_` has, for each that is left in `part`, a line of it that
+  /// has some of the piece on both sides.
+  bool sort_candidates(Piece& piece, PieceBound& bound) {
     cuts_.clear();
     for (const std::uint32_t c : piece.part) {
       Line cut = 0;
@@ -269,15 +270,14 @@ class PieceSearch {
       if (cover == Cover::All) {
         is_bounded_[c] = 1;
         piece.full.push_back(c);
-        if (lower_bound_to(piece, c, bound)) return std::nullopt;
+        if (lower_bound_to(piece, c, bound)) return true;
       }
       if (cover != Cover::Part) continue;
       piece.part[cuts_.size()] = c;
       cuts_.push_back(cut);
     }
     piece.part.resize(cuts_.size());
-    if (cuts_.empty()) return std::nullopt;
-    return cuts_[cuts_.size() / 2];  // a middle one halves pieces: candidates are in spatial order
+    return false;
   }
 
   void bound(Piece& piece) {
@@ -286,14 +286,15 @@ class PieceSearch {
     PieceBound bound;
     for (const std::uint32_t c : piece.full)
       if (lower_bound_to(piece, c, bound)) return accept(bound.upper);
-    const std::optional<Line> cut = sort_candidates(piece, bound);
-    if (bound.upper <= limit()) return accept(bound.upper);
+    if (sort_candidates(piece, bound)) return accept(bound.upper);
     const bool is_covered = !piece.full.empty();
+    if (is_covered && !has_no_area() && has_many(piece)) drop_far(piece, bound.upper);
     if (is_covered && result_.pieces >= goal_.max_pieces) {
       result_.gave_up = true;
       return accept(bound.upper);
     }
-    if (cut) return split(piece, *cut);
+    // A middle one halves pieces: candidates are in spatial order.
+    if (!cuts_.empty()) return split(piece, cuts_[cuts_.size() / 2]);
     if (piece.has_near && !is_covered) return give_up_near();
     if (piece.has_near && !is_within_reach(piece)) return take_likely(piece);
     const bool may_do_without_others = has_no_area() && is_covered && !has_others_;
@@ -329,10 +330,13 @@ class PieceSearch {
     }
   }
 
+  [[nodiscard]] static bool has_many(const Piece& piece) {
+    return piece.full.size() + piece.part.size() > few_candidates;
+  }
+
   /// Whether there are many candidates, and the piece is so long that not all can be near all of it.
   [[nodiscard]] bool is_crowded(const Piece& piece) const {
-    return piece.has_near && piece.full.size() + piece.part.size() > few_candidates &&
-           place_of_piece(piece.polygon).diagonal().norm() > goal_.reach;
+    return piece.has_near && has_many(piece) && place_of_piece(piece.polygon).diagonal().norm() > goal_.reach;
   }
 
   /// Halves a piece across its longest extent, and leaves each half those candidates that are within reach of it. False
@@ -471,11 +475,20 @@ class PieceSearch {
     return place;
   }
 
-  /// Drops candidates that are farther from all of the piece than `upper`: of a triangle without an area in the texture
-  /// all of the others may have the coordinate. Rounding may decide, but some are left: what none covers is uncovered.
-  void drop_far(Piece& piece, double upper) const {
+  /// Drops candidates that are farther from all of the piece than `upper`, a bound of one that covers it: where many
+  /// share a part of the texture, or the triangle has no area there, most are. Rounding may decide, but some are left:
+  /// what none covers is uncovered.
+  void drop_far(Piece& piece, double upper) {
     const auto is_far = is_farther_than(upper, piece);
     if (!std::all_of(piece.full.begin(), piece.full.end(), is_far)) std::erase_if(piece.full, is_far);
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < piece.part.size(); ++i) {
+      if (is_far(piece.part[i])) continue;
+      piece.part[left] = piece.part[i];
+      cuts_[left++] = cuts_[i];
+    }
+    piece.part.resize(left);
+    cuts_.resize(left);
   }
 
   /// A line that parts what different candidates are near, else one that halves the piece.
