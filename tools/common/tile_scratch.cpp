@@ -18,7 +18,7 @@ namespace meshbound::tools {
 namespace {
 
 /// Version of the files in the folder; it must change whenever their bytes, or the results of tiles, change.
-constexpr std::string_view format = "meshbound tiles 32 " MESHBOUND_VERSION;
+constexpr std::string_view format = "meshbound tiles 33 " MESHBOUND_VERSION;
 
 /// Appends the checksums of blocks of `size` items, which read(first, items) reads.
 template <class T, class Read>
